@@ -37,4 +37,10 @@ class MachineError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Whoever read standard output, or a pipe that is written, has gone away. The program ends quietly, by SIGPIPE.
+class ReaderGone : public MachineError {
+  public:
+    using MachineError::MachineError;
+};
+
 }  // namespace mobbscope

@@ -126,7 +126,7 @@ std::string read_file(const std::filesystem::path& file) {
     }
     // Devices and pipes may never end.
     if (status.type() != std::filesystem::file_type::regular) {
-        throw InputError(name, "is no regular file; save the data to a file first");
+        throw InputError(name, "is not a regular file; save the data to a file first");
     }
     const auto in = opened(file);
     if (!in) throw InputError(name, "cannot be read: " + system_message(errno));

@@ -204,6 +204,8 @@ void write_all(int descriptor, const FileBytes& wanted) {
         const ssize_t count = ::write(descriptor, wanted.bytes.data() + done, wanted.bytes.size() - done);
         if (count >= 0) {
             done += static_cast<std::size_t>(count);
+        } else if (errno == EPIPE) {
+            throw ReaderGone(wanted.file.string() + ": nobody reads from it any more");
         } else if (errno != EINTR) {
             throw unwritable(wanted.file, errno);
         }

@@ -246,7 +246,7 @@ JsonText parse_json(std::string_view text, const std::string& file) {
     if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
         const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
         throw InputError(file, "line " + std::to_string(line),
-                         "holds a NUL byte; this is no text file, or a damaged one");
+                         "holds a NUL byte; this is not a text file, or a damaged one");
     }
     const char* last_read = text.data();
     JsonTextBuilder builder(text, file, &last_read);

@@ -22,7 +22,7 @@ double parse_whole(const NumberOptionInfo& option, const std::string& text) {
     const auto least = static_cast<std::int64_t>(option.least);
     const auto most = static_cast<std::int64_t>(option.most);
     if (error == std::errc{} && stop == end && number >= least && number <= most) return static_cast<double>(number);
-    throw std::invalid_argument(in_quotes(text) + " is no whole number from " + text_of_one(option, option.least) +
+    throw std::invalid_argument(in_quotes(text) + " is not a whole number from " + text_of_one(option, option.least) +
                                 " to " + text_of_one(option, option.most));
 }
 

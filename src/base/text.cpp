@@ -100,6 +100,13 @@ std::vector<std::size_t> beginnings(std::string_view text) {
     return out;
 }
 
+/// Below a millimetre more decimals are needed to say anything, above 10 fewer.
+int decimals_of(double value) {
+    const double size = std::abs(value);
+    const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+    return std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
+}
+
 }  // namespace
 
 const char* read_plain_double(const char* at, const char* end, double& value) {
@@ -144,7 +151,7 @@ std::optional<double> parse_double(std::string_view text) {
 double parse_number_within(std::string_view text, double low, double high) {
     const std::optional<double> value = parse_double(text);
     if (value && *value >= low && *value <= high) return *value;
-    throw std::invalid_argument(in_quotes(text) + " is no number from " + brief(low) + " to " + brief(high));
+    throw std::invalid_argument(in_quotes(text) + " is not a number from " + brief(low) + " to " + brief(high));
 }
 
 std::optional<int> parse_int(std::string_view text) {
@@ -203,6 +210,14 @@ std::string to_thousandth(double value) {
     out.erase(out.find_last_not_of('0') + 1);
     if (out.ends_with('.')) out.pop_back();
     return out == "-0" ? "0" : out;
+}
+
+std::string with_unit(double value, const char* unit) { return formatted("%.*f %s", decimals_of(value), value, unit); }
+
+std::string proven_words(double value, const char* unit) {
+    const double scale = std::pow(10, decimals_of(value));
+    // What rounding took from a number whose decimals end here is given back.
+    return with_unit(std::floor(value * scale + 1e-6) / scale, unit);
 }
 
 std::string formatted(const char* format, ...) {
@@ -345,7 +360,7 @@ std::string bytes_text(std::uintmax_t bytes) {
     const double size = static_cast<double>(bytes);
     if (bytes < 1000) return formatted("%ju B", bytes);
     if (size < 999.5e3) return formatted("%.*f kB", size < 9.95e3 ? 1 : 0, size / 1e3);
-    return formatted("%.1f MB", size / 1e6);
+    return size < 999.95e6 ? formatted("%.1f MB", size / 1e6) : formatted("%.1f GB", size / 1e9);
 }
 
 std::string shell_word(const std::string& word) {
@@ -403,7 +418,7 @@ bool TextLines::next() {
         rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
         ++number_;
         if (line_.find('\0') != std::string_view::npos)
-            fail("holds a NUL byte; this is no text file, or a damaged one");
+            fail("holds a NUL byte; this is not a text file, or a damaged one");
         if (!line_.empty()) return true;
     }
     return false;

@@ -50,6 +50,11 @@ std::string ratio_words(double now, double before);
 /// A place or a time for people: to the thousandth, however large, without zeros at the end.
 std::string to_thousandth(double value);
 
+/// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
+std::string with_unit(double value, const char* unit);
+/// A proven bound: as with_unit, but rounded down. The same bound reads the same everywhere.
+std::string proven_words(double value, const char* unit);
+
 /// As std::printf writes it.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
@@ -111,7 +116,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> nam
 /// The name with the least edit distance; the first of equals. There must be one.
 const std::string& nearest(std::string_view word, std::span<const std::string> names);
 
-/// "512 B", "4.2 kB", "48 kB", "1.3 MB"
+/// Sizes for people, in powers of 1,000: "512 B", "4.2 kB", "48 kB", "1.3 MB", "2.1 GB".
 std::string bytes_text(std::uintmax_t bytes);
 
 /// A word as a POSIX shell takes it literally: in single quotes where it needs them.

@@ -29,7 +29,7 @@ std::string stem_of(const CaseFile& file) {
 
 Tolerance read_tolerance(const JsonPlace& place) {
     if (const auto named = enumerator_named<Tolerance>(kTolerances, place.string())) return *named;
-    place.fail(in_quotes(place.string()) + " is no tolerance; give tight or loose");
+    place.fail(in_quotes(place.string()) + " is not a tolerance; give tight or loose");
 }
 
 /// What options take as text, here as text or number.

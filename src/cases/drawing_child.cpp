@@ -88,7 +88,8 @@ class CaseProcess {
         if (is_idle() || is_over_) return std::nullopt;
         const CaseFile& file = order_->file;
         if (has_ended) return over(failed(file, how_it_ended_here()));
-        if (said_.size() > kMostLine) return over(failed(file, "the process that draws said what is no result"));
+        if (said_.size() > kMostLine)
+            return over(failed(file, "the drawing process wrote something that is not a result"));
         if (seconds() <= (is_ready_ ? limit_ : kPatienceWithItsStart)) return std::nullopt;
         if (is_ready_) return over(failed(file, "took longer than " + brief(limit_) + " s (time_limit)"));
         return over(not_drawn(file, "OpenGL did not start within " + brief(kPatienceWithItsStart) + " s"));
@@ -149,7 +150,7 @@ class CaseProcess {
             order_ = nullptr;
             return result;
         } catch (const InputError&) {
-            return over(failed(file, "the process that draws said what is no result"));
+            return over(failed(file, "the drawing process wrote something that is not a result"));
         }
     }
 

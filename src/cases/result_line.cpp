@@ -33,7 +33,7 @@ std::optional<std::string> packed_picture(const std::string& png) {
 std::optional<std::string> unpacked(const JsonPlace& place) {
     if (place.is_null()) return std::nullopt;
     std::optional<std::string> bytes = from_base64(place.string());
-    if (!bytes) place.fail("is no base64");
+    if (!bytes) place.fail("is not base64");
     return bytes;
 }
 
@@ -41,7 +41,7 @@ std::optional<std::string> unpacked(const JsonPlace& place) {
 std::filesystem::path golden_at(const JsonPlace& place, const CaseFile& file) {
     const std::string& ending = place.string();
     if (!is_golden_ending(ending))
-        place.fail(in_quotes(ending) + " is no golden of a case, such as .png or .state.json");
+        place.fail(in_quotes(ending) + " is not a golden of a case, such as .png or .state.json");
     return file.beside(ending);
 }
 
@@ -67,7 +67,7 @@ constexpr auto kOutcomes = [] {
 template <class Value>
 Value named(const JsonPlace& place, std::span<const std::string_view> names) {
     const std::optional<Value> value = enumerator_named<Value>(names, place.string());
-    if (!value) place.fail(in_quotes(place.string()) + " is none of the names");
+    if (!value) place.fail(in_quotes(place.string()) + " is not one of the names");
     return *value;
 }
 
@@ -166,7 +166,7 @@ CaseResult read_result(const JsonPlace& root, const std::vector<CaseFile>& cases
     const JsonPlace named_case = root.require("name");
     const std::string& of = named_case.string();
     const auto file = std::ranges::find(cases, of, &CaseFile::name);
-    if (file == cases.end()) named_case.fail(in_quotes(of) + " is none of the cases");
+    if (file == cases.end()) named_case.fail(in_quotes(of) + " is not one of the cases");
     CaseResult result;
     result.file = *file;
     result.outcome = named<CaseOutcome>(root.require("outcome"), kOutcomes);

@@ -84,7 +84,7 @@ Workload table1(const BenchCommandArguments& arguments) {
     const bool pairs_alone = scene.queries.empty();
     if (query_count(scene) > 0 && (!pairs_alone || (!scene.crowd && !scene.graph))) {
         if (arguments.ahead || arguments.within)
-            throw InputError("the files bring their own queries; leave out --ahead and --within");
+            throw InputError("the files have their own queries; leave out --ahead and --within");
         workload = workload_of_scene(scene);
         if (workload.queries.size() > static_cast<std::size_t>(most)) {
             workload.queries.resize(static_cast<std::size_t>(most));
@@ -112,7 +112,7 @@ void measure_all(const BenchCommandArguments& arguments) {
         throw InputError("--range is for the random places of table2; leave it out");
     const Workload workload = arguments.workload == "table1" ? table1(arguments) : table2(arguments);
     if (workload.queries.empty())
-        throw InputError("the crowd came to no choice, so there is nothing to ask; give shorter clips");
+        throw InputError("the crowd made no choice, so there are no queries; give shorter clips");
     const mobb::FitOptions base = arguments.fit.over(workload.fit);
     const MeasureProgress progress = arguments.json ? MeasureProgress{} : show_progress;
     TableReport report;
@@ -153,9 +153,9 @@ void add_bench_options(Command& command, BenchCommandArguments& arguments) {
     command.add_flag("--json", arguments.json, "The figures as JSON");
     add_parsed(command, "--queries", arguments.queries, whole_number_within(1, kMaxQueries),
                "How many queries, at most (100000)", "N");
-    add_parsed(command, "--seed", arguments.seed, parse_seed, "Of whatever is random (1)", "S");
+    add_parsed(command, "--seed", arguments.seed, parse_seed, "Seed of all that is random (1)", "S");
     add_parsed(command, "--rounds", arguments.rounds, whole_number_within(1, kMostRounds),
-               "How often everything is timed; the median counts (5)", "N");
+               "How often everything is timed; the median is reported (5)", "N");
     command.add_flag("--sweep", arguments.sweep, "Times and counts at n_min from 1 to 200 too");
     command.add_flag("--variants", arguments.variants,
                      "Also with other axes and time scales, and with box tests where a leaf meets an inner node");

@@ -188,7 +188,7 @@ void print_text(const Findings& findings) {
             std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
             separator = ", ";
         }
-        std::cout << " s; least clearance " << to_thousandth(deepest.least_clearance) << " m at " << brief(deepest.time)
+        std::cout << " s; least clearance " << brief(deepest.least_clearance) << " m at " << brief(deepest.time)
                   << " s near " << place_in_words(position) << ", samples " << findings.a_sample(deepest) << " and "
                   << findings.b_sample(deepest)
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';

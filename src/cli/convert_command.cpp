@@ -138,7 +138,8 @@ void warn_of_lost_motion(const Scene& scene, const std::filesystem::path& out) {
 void warn_of_other_disks(const std::filesystem::path& out, const DiskDifference& difference) {
     if (difference.root) {
         warn(out.string() + ": give --unit m --root " + shell_word(*difference.root) +
-             " when reading it: an import would guess otherwise, as the root stands still or the body is no person's");
+             " when reading it: an import would guess otherwise, as the root stands still or the body is not a "
+             "person's");
     }
     if (difference.place > kSameDisk) {
         warn(out.string() + ": when it is read again, disks are up to " + brief(difference.place) +
@@ -195,7 +196,8 @@ void run_convert(const ConvertCommandArguments& arguments) {
 
 void add_convert_options(Command& command, ConvertCommandArguments& arguments) {
     add_scene_file(command, arguments.file);
-    command.add_option("-o,--output", arguments.out, "Where to: .csv or .json; with the skeleton .bvh or .glb", "OUT")
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name,
+               "Where to: .csv or .json; with the skeleton .bvh or .glb", "OUT")
         .required();
     add_parsed(
         command, "--agent", arguments.agent, [](const std::string& text) { return text; },

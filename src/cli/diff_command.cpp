@@ -30,7 +30,7 @@ struct DiffCommandArguments {
 
 int parse_pixel_shift(const std::string& text) {
     if (text == "0" || text == "1") return text == "1" ? 1 : 0;
-    throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a pixel is the most that may be forgiven");
+    throw std::invalid_argument(in_quotes(text) + " is neither 0 nor 1: a picture may be shifted by one pixel at most");
 }
 
 ImageDiff compare(const DiffCommandArguments& arguments, const Image& a, const Image& b) {
@@ -96,10 +96,12 @@ int run_diff(const DiffCommandArguments& arguments) {
 }
 
 void add_diff_options(Command& command, DiffCommandArguments& arguments) {
-    command.add_option("A.png", arguments.a, "A picture, such as the one just made", "").required();
-    command.add_option("B.png", arguments.b, "The one that it is held against", "").required();
-    command.add_option("-o,--output", arguments.heat, "Heat map: B in grey, and what differs glowing", "HEAT.png");
-    command.add_option("--strip", arguments.strip, "A, B and the heat map side by side", "STRIP.png");
+    command.add_option("A.png", arguments.a, "A picture, such as a new one", "").required();
+    command.add_option("B.png", arguments.b, "The picture that it is compared with", "").required();
+    add_parsed(command, "-o,--output", arguments.heat, parse_output_name, "Heat map: B in grey, differences bright",
+               "HEAT.png");
+    add_parsed(command, "--strip", arguments.strip, parse_output_name, "A, B and the heat map side by side",
+               "STRIP.png");
     const auto parsed_by = [&arguments](void (*set)(DiffOptions&, const std::string&)) {
         return [&arguments, set](const std::string& text) {
             DiffOptions options = arguments.options;

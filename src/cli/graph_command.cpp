@@ -117,7 +117,7 @@ void add_build_options(Command& command, BuildArguments& arguments) {
     GraphOptions& options = arguments.options;
     command.add_option("PLACE", arguments.places, "Clip files, and folders of them with their subfolders", "")
         .required();
-    command.add_option("-o,--output", arguments.out, "The graph, a scene", "GRAPH.json").required();
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name, "The graph, a scene", "GRAPH.json").required();
     add_number_options(command, graph_options(), options);
     command.add_flag("--whole", options.whole, std::string(kWholeHelp));
     command.add_flag("--strict", arguments.strict, "A bad file in a folder ends the build; without it it is left out");
@@ -133,7 +133,8 @@ void add_graph_info_options(Command& command, InfoArguments& arguments) {
 
 void add_draw_options(Command& command, DrawArguments& arguments) {
     add_parsed(command, "GRAPH", arguments.file, parse_file_name, "A scene with a motion graph", "").required();
-    command.add_option("-o,--output", arguments.out, "The picture: .png, .svg or .pdf", "OUT.png").required();
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name, "The picture: .png, .svg or .pdf", "OUT.png")
+        .required();
     add_drawing_options(command, arguments.drawing);
 }
 

@@ -72,7 +72,7 @@ void print_changes(std::ostream& out, const Scene& scene, const Continuity& of) 
 void print_feet(std::ostream& out, const Scene& scene, const Continuity& of) {
     begin_line(out, "feet");
     if (of.contacts == 0) {
-        out << "no joint stands for " << brief(kLeastContact) << " s\n";
+        out << "no joint stands still for " << brief(kLeastContact) << " s\n";
         return;
     }
     out << "slide " << in_thousandths(of.median_slide) << " m median in " << counted(of.contacts, "contact", "contacts")

@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
     using namespace mobbscope;
     cli::keep_freed_memory();
     std::ios::sync_with_stdio(false);
-    // A reader that goes away and a file that may not grow are errors to report, not signals to die of.
+    // Output is finished or removed before the program ends because a reader went away; a file that may not grow is an
+    // error to report.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     // Who is started with it ignored would never hear how a child ended.
@@ -94,6 +95,10 @@ int main(int argc, char** argv) {
     cli::leave_no_unfinished_files();
     try {
         return cli::run(argc, argv);
+    } catch (const ReaderGone&) {
+        // As head leaves the programs it reads from; a shell calls that 141.
+        cli::end_by_signal(SIGPIPE);
+        return cli::kNoMachine;
     } catch (const InputError& error) {
         cli::complain(error.what());
         return cli::kBadInput;
@@ -104,9 +109,10 @@ int main(int argc, char** argv) {
         cli::complain("there is not enough memory for this");
         return cli::kNoMachine;
     } catch (const std::exception& error) {
-        cli::complain(cli::is_lack_of_threads(error)
-                          ? "the system starts no more threads or processes; end some, or raise the limit (ulimit -u)"
-                          : std::string("this should not happen, please report it: ") + error.what());
+        cli::complain(
+            cli::is_lack_of_threads(error)
+                ? "the system cannot start more threads or processes; end some, or raise the limit (ulimit -u)"
+                : std::string("this should not happen, please report it: ") + error.what());
         return cli::kNoMachine;
     }
 }

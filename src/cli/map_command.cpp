@@ -64,7 +64,8 @@ void parse_cells(const std::string& text, MapOrder& order) {
     const int height = parse_int(text.substr(std::min(times + 1, text.size()))).value_or(0);
     for (const int side : {width, height}) {
         if (side < 1 || side > kMostMapCells)
-            throw std::invalid_argument(in_quotes(text) + " are no cells; write them like 256x256, each from 1 to " +
+            throw std::invalid_argument(in_quotes(text) +
+                                        " is not a number of cells; write it like 256x256, each from 1 to " +
                                         std::to_string(kMostMapCells));
     }
     order.width = width;
@@ -149,7 +150,7 @@ void add_map_options(Command& command, MapCommandArguments& arguments) {
                "answer (whether they collide), clearance (the least, in metres) or tests (of boxes and samples) "
                "(answer)",
                "WHAT");
-    command.add_option("-o,--output", arguments.out, "The picture: .png, .svg or .pdf", "MAP.png");
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name, "The picture: .png, .svg or .pdf", "MAP.png");
     add_drawing_options(command, arguments.drawing);
 }
 

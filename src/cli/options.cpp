@@ -29,18 +29,18 @@ namespace {
 // CLI11's own reading of numbers takes "" for 0 and "010" for 8, so every number comes as text.
 double parse_number(const std::string& text) {
     if (const std::optional<double> value = parse_double(text)) return *value;
-    throw std::invalid_argument(in_quotes(text) + " is no finite number; write it like 0.25");
+    throw std::invalid_argument(in_quotes(text) + " is not a finite number; write it like 0.25");
 }
 
 int parse_whole_number(const std::string& text) {
     if (const std::optional<int> value = parse_int(text)) return *value;
-    throw std::invalid_argument(in_quotes(text) + " is no whole number up to " +
+    throw std::invalid_argument(in_quotes(text) + " is not a whole number up to " +
                                 std::to_string(std::numeric_limits<int>::max()) + "; write it like 10");
 }
 
 std::pair<double, double> parse_trim(const std::string& text) {
     if (const auto range = parse_range(text)) return *range;
-    throw std::invalid_argument(in_quotes(text) + " is no range; give two times in seconds, such as 0.5:3.2");
+    throw std::invalid_argument(in_quotes(text) + " is not a range; give two times in seconds, such as 0.5:3.2");
 }
 
 mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
@@ -123,11 +123,12 @@ void add_fit_options(Command& command, FitArguments& arguments, Brute brute) {
     const auto set_tree = [&arguments, takes_brute, trees](const std::string& text) {
         arguments.tree = find_tree_kind(text);
         arguments.brute = takes_brute && text == "brute";
-        if (!arguments.tree && !arguments.brute) throw std::invalid_argument(in_quotes(text) + " is none of " + trees);
+        if (!arguments.tree && !arguments.brute)
+            throw std::invalid_argument(in_quotes(text) + " is not one of " + trees);
     };
     const auto set_axes = [&arguments, axes](const std::string& text) {
         arguments.axes = mobb::axes_from_name(text);
-        if (!arguments.axes) throw std::invalid_argument(in_quotes(text) + " is none of " + axes);
+        if (!arguments.axes) throw std::invalid_argument(in_quotes(text) + " is not one of " + axes);
     };
     const auto checked = [&arguments](auto FitArguments::*field, auto parse) {
         return [&arguments, field, parse](const std::string& text) {
@@ -195,13 +196,19 @@ FittedScene fitted(Scene scene, const FitArguments& arguments) {
 
 void check_asks(const FittedScene& scene, const std::filesystem::path& file) {
     if (!scene.queries().empty()) return;
-    if (scene.scene().crowd) throw InputError(file, "a run asks nothing; mobbscope conflicts finds who collides in it");
-    throw InputError(file, "there is nothing to ask; add queries, or two agents at least");
+    if (scene.scene().crowd)
+        throw InputError(file, "a run has no queries; mobbscope conflicts finds who collides in it");
+    throw InputError(file, "there are no queries; add some, or at least two agents");
 }
 
 std::filesystem::path parse_file_name(const std::string& text) {
-    if (text.empty()) throw std::invalid_argument("the name is empty; give a file");
+    if (text.empty()) throw std::invalid_argument("the name of a file is empty; give one");
     return text;
+}
+
+std::filesystem::path parse_output_name(const std::string& text) {
+    if (text == "-") throw std::invalid_argument("'-' is standard output, which is for the results; name a file");
+    return parse_file_name(text);
 }
 
 void add_scene_file(Command& command, std::filesystem::path& file) {
@@ -212,7 +219,7 @@ std::function<int(const std::string&)> whole_number_within(int least, int most) 
     return [least, most](const std::string& text) {
         const std::optional<int> number = parse_int(text);
         if (number && *number >= least && *number <= most) return *number;
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from " + std::to_string(least) + " to " +
+        throw std::invalid_argument(in_quotes(text) + " is not a whole number from " + std::to_string(least) + " to " +
                                     std::to_string(most));
     };
 }
@@ -226,7 +233,7 @@ std::uint64_t parse_seed(const std::string& text) {
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, seed);
     if (error != std::errc{} || stop != end || seed > kMaxSeed) {
-        throw std::invalid_argument(in_quotes(text) + " is no whole number from 0 to " + std::to_string(kMaxSeed));
+        throw std::invalid_argument(in_quotes(text) + " is not a whole number from 0 to " + std::to_string(kMaxSeed));
     }
     return seed;
 }

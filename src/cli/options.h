@@ -69,11 +69,13 @@ Option add_fitted_options(Command& command, FittedArguments& arguments, const st
 /// The scene with the trees that it or the arguments ask for.
 FittedScene fitted(Scene scene, const FitArguments& arguments);
 
-/// Throws InputError, naming the file, if the scene asks nothing.
+/// Throws InputError, naming the file, if the scene has no queries.
 void check_asks(const FittedScene& scene, const std::filesystem::path& file);
 
 /// Throws std::invalid_argument if the text is empty, as an unset variable leaves it.
 std::filesystem::path parse_file_name(const std::string& text);
+/// The same of a file that is written. "-" is refused.
+std::filesystem::path parse_output_name(const std::string& text);
 
 /// Adds the FILE that a command works on: a scene or a clip.
 void add_scene_file(Command& command, std::filesystem::path& file);

@@ -5,6 +5,8 @@
 #include <render/image/picture_names.h>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -28,7 +30,12 @@ void warn(std::string_view message) { complain("warning: " + std::string(message
 
 void flush_results() {
     std::cout.flush();
-    if (!std::cout) throw MachineError("standard output cannot be written; is the disk full or the reader gone?");
+    if (std::cout) return;
+    // The write that failed may be long ago: errno is that of another call.
+    pollfd output{STDOUT_FILENO, POLLOUT, 0};
+    if (::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0)
+        throw ReaderGone("nobody reads from standard output any more");
+    throw MachineError("standard output cannot be written; is the disk full?");
 }
 
 namespace fs = std::filesystem;
@@ -56,6 +63,11 @@ void check_output(const fs::path& output) {
     if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");
     // What is no regular file is written in place.
     if (there && !fs::is_regular_file(target, error)) return;
+    struct stat file {
+    }, results{};
+    if (there && ::stat(target.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &results) == 0 &&
+        file.st_dev == results.st_dev && file.st_ino == results.st_ino)
+        throw InputError(output, "is the file that standard output goes to, with the results; give another one");
     if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
         refuse("its folder " + in_quotes(folder.string()) + " is write-protected");
     }

@@ -16,7 +16,8 @@ void say(std::string_view message);
 /// The same for something that does not stop the program.
 void warn(std::string_view message);
 
-/// Hands everything written to std::cout to the system. Throws MachineError if it did not take it all.
+/// Hands everything written to std::cout to the system. Throws MachineError if it did not take it all, and
+/// ReaderGone if that is because nobody reads it any more.
 void flush_results();
 
 enum ExitStatus : int {

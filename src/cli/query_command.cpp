@@ -13,14 +13,17 @@
 #include <explain/proof_words.h>
 #include <explain/query_sentence.h>
 #include <scene/answer.h>
+#include <scene/drawn_agent.h>
 #include <scene/fit_text.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,14 +43,21 @@ struct QueryCommandArguments : FittedArguments {
     std::optional<std::string> compare;  ///< another fit, as text
 };
 
-void print_event(std::ostream& out, int step, const SceneQuery& query, const mobb::Trace::Event& event,
-                 const AvoidableOverlap* avoidable) {
-    // A step's number leads each line, so that it can be given to `render --step`.
+/// The two of a query as sentences name them.
+std::array<DrawnAgent, 2> sides_of(const FittedScene& fitted, const SceneQuery& query) {
+    const auto side = [&](const PlacedAgent& who) {
+        return DrawnAgent{.placed = fitted.placed(who), .name = who.name, .label = cleaned(who.name), .color = {}};
+    };
+    return {side(query.a), side(query.b)};
+}
+
+/// A test in the words of its picture, behind its number, which `render --step` takes.
+void print_event(std::ostream& out, int step, std::span<const DrawnAgent> sides, const SceneQuery& query,
+                 const mobb::Trace::Event& event, const AvoidableOverlap* avoidable) {
     const std::string number = std::to_string(step);
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
-        << std::string(2 * static_cast<std::size_t>(event.depth), ' ') << event.a << " x " << event.b << "  "
-        << mobb::name(event.test) << ": ";
-    out << plain_outcome(event, brief);
+        << std::string(2 * static_cast<std::size_t>(event.depth), ' ') << node_name(sides[0], event.a) << " against "
+        << node_name(sides[1], event.b) << "  " << mobb::name(event.test) << ": " << outcome_text(sides, event);
     if (avoidable) out << ", avoidable: " << avoidable_words(*avoidable, cleaned(query.a.name), cleaned(query.b.name));
     out << '\n';
 }
@@ -114,12 +124,13 @@ void check_bodies(const FittedScene& fitted, const std::filesystem::path& file) 
         why = why_no_bodies(fitted.scene(), fitted.queries()[index]);
         if (why.empty()) return;
     }
-    throw InputError(file.string(), "", "no query is of two bodies: " + why);
+    throw InputError(file.string(), "", "no query is between two bodies: " + why);
 }
 
 /// A sentence, the proof, the counts, and what else was asked for. Events of a trace take rows.
-void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query, const Answer& answer,
-                  const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven, TextRows& rows) {
+void print_answer(std::ostream& out, std::size_t index, const FittedScene& fitted, const SceneQuery& query,
+                  const Answer& answer, const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven,
+                  TextRows& rows) {
     out << index << ": " << sentence(query, answer.contact) << '\n';
     if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
     if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
@@ -142,10 +153,11 @@ void print_answer(std::ostream& out, std::size_t index, const SceneQuery& query,
         out << ".\n";
     }
     if (answer.trace) {
-        out << "   Trace (node of " << cleaned(query.a.name) << " x node of " << cleaned(query.b.name) << ")";
+        out << "   Trace";
+        const std::array<DrawnAgent, 2> sides = sides_of(fitted, query);
         std::size_t left_out = 0;
         const auto print = [&](int step) {
-            rows.take() ? print_event(out, step, query, (*answer.trace)[step], avoidable.at(step))
+            rows.take() ? print_event(out, step, sides, query, (*answer.trace)[step], avoidable.at(step))
                         : static_cast<void>(++left_out);
         };
         if (!answer.steps) {
@@ -238,7 +250,8 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
             if (arguments.bodies) write_bodies_of(json, fitted, query, arguments.bone_radius);
             json.end_object();
         } else if (is_listed) {
-            print_answer(std::cout, index, query, found, avoidable, arguments.proof ? proven : std::nullopt, rows);
+            print_answer(std::cout, index, fitted, query, found, avoidable, arguments.proof ? proven : std::nullopt,
+                         rows);
             if (arguments.bodies) print_bodies(std::cout, fitted, query, arguments.bone_radius);
         }
         if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});
@@ -318,7 +331,7 @@ void add_query_options(Command& command, QueryCommandArguments& arguments) {
         command.add_option("--where", arguments.where,
                            "Only the tests that pass a filter, such as 'gap < 0.05 and level(a) >= 3'", "EXPR");
     const Option certificate =
-        add_parsed(command, "--certificate", arguments.certificate, parse_file_name,
+        add_parsed(command, "--certificate", arguments.certificate, parse_output_name,
                    "Also write proofs of the answers, which mobbscope verify checks", "OUT.json");
     const Option contacts = command.add_flag("--all-contacts", arguments.details.all_contacts,
                                              "All intervals of contact, not only the first");

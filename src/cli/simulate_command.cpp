@@ -316,13 +316,13 @@ void add_simulate_options(Command& command, SimulateCommandArguments& arguments)
     add_parsed(command, "GRAPH", arguments.graph, parse_file_name,
                "A scene with a motion graph; with --whole clips, or a folder of them; with --check a run", "")
         .required();
-    add_parsed(command, "-o,--output", arguments.out, parse_file_name, "The run, as a scene", "OUT.json");
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name, "The run, as a scene", "OUT.json");
     command.add_flag("--check", arguments.check,
                      "Make every choice of a run again; 1 and the first that differs, where one does");
     add_number_options(command, crowd_options(), arguments.order);
     add_parsed(command, "--threads", arguments.order.options.threads, whole_number_within(1, kMaxThreads),
                "At most (all)", "N");
-    const Option record = add_parsed(command, "--record", arguments.record, parse_file_name,
+    const Option record = add_parsed(command, "--record", arguments.record, parse_output_name,
                                      "Queries that were asked, as a scene", "FILE.json");
     add_parsed(command, "--record-queries", arguments.record_queries, whole_number_within(0, kMostRecorded),
                "How many, drawn at random; 0 is all, up to half a million (20000)", "N")

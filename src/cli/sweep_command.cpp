@@ -354,8 +354,8 @@ void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
     const Option json = command.add_flag("--json", arguments.json, "Everything as JSON");
     Option csv = command.add_flag("--csv", arguments.csv, "The rows as CSV");
     csv.excludes(json);
-    command.add_option("-o,--output", arguments.out, "Cost over the leaf, as a picture: .png, .svg or .pdf",
-                       "PLOT.png");
+    add_parsed(command, "-o,--output", arguments.out, parse_output_name,
+               "Cost over the leaf, as a picture: .png, .svg or .pdf", "PLOT.png");
     add_fit_options(command, arguments.fit);
     add_import_options(command, arguments.import_options);
     add_drawing_options(command, arguments.drawing);

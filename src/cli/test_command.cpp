@@ -123,7 +123,7 @@ Shard parse_shard(const std::string& text) {
     const std::optional<int> index = parse_int(text.substr(0, slash));
     const std::optional<int> count = slash == text.npos ? std::nullopt : parse_int(text.substr(slash + 1));
     if (!index || !count || *index < 1 || *index > *count || *count > kMostShards) {
-        throw std::invalid_argument(in_quotes(text) + " is no shard; give K/N, such as 2/3");
+        throw std::invalid_argument(in_quotes(text) + " is not a shard; give K/N, such as 2/3");
     }
     return {*index, *count};
 }
@@ -134,7 +134,7 @@ int parse_jobs(const std::string& text) {
     constexpr int kMostJobs = 256;
     const std::optional<int> jobs = parse_int(text);
     if (!jobs || *jobs < 1 || *jobs > kMostJobs) {
-        throw std::invalid_argument(in_quotes(text) + " is no number of processes from 1 to " +
+        throw std::invalid_argument(in_quotes(text) + " is not a number of processes from 1 to " +
                                     std::to_string(kMostJobs));
     }
     return *jobs;
@@ -150,7 +150,7 @@ void check_output_folder(const TestCommandArguments& arguments) {
     }
     std::error_code ignored;
     if (std::filesystem::exists(arguments.output, ignored) && !std::filesystem::is_directory(arguments.output)) {
-        throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is no folder");
+        throw MachineError(arguments.output.string() + ": pictures cannot be written there: it is not a folder");
     }
 }
 
@@ -164,17 +164,16 @@ void check_report_files(const TestCommandArguments& arguments) {
 void check_reports(const TestCommandArguments& arguments, const std::vector<CaseFile>& all) {
     const bool reports = !arguments.junit.empty() || !arguments.html.empty() || !arguments.contact_sheet.empty();
     if (arguments.json_lines && (arguments.update || arguments.strict || !arguments.accept.empty() || reports)) {
-        throw InputError("--json-lines: nothing else is written then; leave out --update, --strict and the reports");
+        throw InputError("--json-lines writes nothing else; leave out --update, --strict and the reports");
     }
     if (!arguments.accept.empty() && !arguments.shard.is_all()) {
-        throw InputError("--accept: it takes all, or those of the names; leave out --shard");
+        throw InputError("--accept takes all cases, or those that are named; leave out --shard");
     }
     if (!arguments.accept.empty() && (arguments.update || arguments.strict || arguments.json || reports)) {
-        throw InputError(
-            "--accept: nothing is drawn and nothing else written then; leave out --update and the reports");
+        throw InputError("--accept draws nothing and writes nothing else; leave out --update and the reports");
     }
     if (arguments.columns && arguments.contact_sheet.empty()) {
-        throw InputError("--columns: they are the contact sheet's; give --contact-sheet too");
+        throw InputError("--columns needs --contact-sheet");
     }
     check_extension(arguments.junit, ".xml", "the report for CI servers is written as .xml; rename it");
     check_extension(arguments.html, ".html", "the report as a page is written as .html; rename it");
@@ -580,7 +579,7 @@ void read_update(TestCommandArguments& arguments) {
     std::vector<std::string>& names = arguments.update_names;
     std::erase(names, "");
     if (std::find(names.begin(), names.end(), "all") == names.end()) return;
-    if (names.size() > 1) throw InputError("--update: all are more than the others that are named; leave those out");
+    if (names.size() > 1) throw InputError("--update: all includes the other names; leave those out");
     arguments.update_all = true;
     names.clear();
 }
@@ -590,9 +589,15 @@ int run_test(const Command& command, TestCommandArguments& arguments) {
     if (arguments.asked) check_requests(command, "--asked", {"--output", "--update"});
     if (command.is_given("--update")) read_update(arguments);
     if (arguments.asked && asks(arguments)) {
-        throw InputError("--update: standard input asks for cases already; name those whose pictures to take, or all");
+        throw InputError("--update: standard input already names cases; name those whose pictures to take, or all");
     }
-    return draw_and_hold(arguments);
+    try {
+        return draw_and_hold(arguments);
+    } catch (const ReaderGone&) {
+        // The status that is promised to programs that read lines.
+        if (!arguments.json_lines) throw;
+        return kNoMachine;
+    }
 }
 
 void add_test_options(Command& command, TestCommandArguments& arguments) {
@@ -619,7 +624,7 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
         "Exit with 1 if there is a golden that no case has, or a case that sees hardly anything: one that "
         "is skipped, or lets over a tenth of its pixels, or 64 of 255 levels, differ, or whose mask leaves "
         "under 1 % of it");
-    add_parsed(command, "--output", arguments.output, parse_file_name,
+    add_parsed(command, "--output", arguments.output, parse_output_name,
                "Where the pictures of what did not pass go (mobbscope-test)", "FOLDER");
     const Option json = command.add_flag("--json", arguments.json, "The report as JSON on standard output");
     Option json_lines = command.add_flag("--json-lines", arguments.json_lines,
@@ -630,18 +635,18 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
                      "Draw the cases that standard input asks for, a line of JSON each, and answer with lines "
                      "of JSON: so does each of the processes that draw");
     command.add_flag("--asked", arguments.asked,
-                     "Draw what tests of another program ask for on standard input, a line of JSON each, hold it "
-                     "against the goldens, and answer in words; nothing is read from DIR but goldens");
-    add_parsed(command, "--junit", arguments.junit, parse_file_name, "The report for CI servers", "OUT.xml");
-    add_parsed(command, "--html", arguments.html, parse_file_name, "The report as one page, with all pictures",
+                     "Draw what tests of another program ask for on standard input, a line of JSON each, compare it "
+                     "with the goldens, and answer in words; only goldens are read from DIR");
+    add_parsed(command, "--junit", arguments.junit, parse_output_name, "The report for CI servers", "OUT.xml");
+    add_parsed(command, "--html", arguments.html, parse_output_name, "The report as one page, with all pictures",
                "OUT.html");
-    add_parsed(command, "--contact-sheet", arguments.contact_sheet, parse_file_name, "All pictures of the run in one",
+    add_parsed(command, "--contact-sheet", arguments.contact_sheet, parse_output_name, "All pictures of the run in one",
                "OUT.png");
     add_parsed(
         command, "--columns", arguments.columns,
         [](const std::string& text) {
             const std::optional<int> columns = parse_int(text);
-            if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is no number of columns");
+            if (!columns || *columns < 1) throw std::invalid_argument(in_quotes(text) + " is not a number of columns");
             return *columns;
         },
         "Of the contact sheet", "N");
@@ -650,7 +655,7 @@ void add_test_options(Command& command, TestCommandArguments& arguments) {
 }  // namespace
 
 void add_test_command(Command& program) {
-    program.add_subcommand("test", "Draw picture tests and hold them against their goldens", add_test_options,
+    program.add_subcommand("test", "Draw picture tests and compare them with their goldens", add_test_options,
                            run_test);
 }
 

@@ -405,9 +405,9 @@ std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conf
 
 std::string sentence(const SceneConflict& conflict) {
     const auto& worst = conflict.facts.worst();
-    std::string text =
-        conflict.a.name + " and " + conflict.b.name +
-        formatted(": %.3f m deep, from %.2f to %.2f s", -conflict.facts.deepest.least_clearance, worst.t0, worst.t1);
+    std::string text = conflict.a.name + " and " + conflict.b.name + ": " +
+                       with_unit(-conflict.facts.deepest.least_clearance, "m") +
+                       formatted(" deep, from %.2f to %.2f s", worst.t0, worst.t1);
     const std::size_t others = conflict.facts.intervals.size() - 1;
     if (others > 0) text += "; they meet " + (others == 1 ? "once" : counted(others, "time", "times")) + " more";
     return text;

@@ -58,7 +58,7 @@ std::optional<std::pair<int, int>> pair_between(const mobb::PlacedClip& a, const
 
 std::string why_no_contact(const mobb::PlacedClip& a, const mobb::PlacedClip& b, const mobb::Contact& contact) {
     if (contact.a_sample < 0 || contact.a_sample >= a.count() || contact.b_sample < 0 || contact.b_sample >= b.count())
-        return "the contact is of samples that there are not";
+        return "the contact names samples that do not exist";
     const mobb::SweptDisk of_a = mobb::swept(a, contact.a_sample);
     const mobb::SweptDisk of_b = mobb::swept(b, contact.b_sample);
     if (!mobb::overlap_in_time(of_a.begin, of_a.end, of_b.begin, of_b.end))
@@ -127,17 +127,17 @@ std::string why_not_proven(const mobb::PlacedClip& a, const mobb::PlacedClip& b,
     for (std::size_t i = 0; i <= tiles.size(); ++i) {
         const double next = i < tiles.size() ? tiles[i].t0 : end;
         if (const auto pair = pair_between(a, b, covered, next)) {
-            return "nothing is said of samples " + std::to_string(pair->first) + " and " +
-                   std::to_string(pair->second) + " from " + brief(covered) + " s to " + brief(next) + " s";
+            return "no tile covers samples " + std::to_string(pair->first) + " and " + std::to_string(pair->second) +
+                   " from " + brief(covered) + " s to " + brief(next) + " s";
         }
         if (i == tiles.size()) break;
         const Tile& tile = tiles[i];
-        if (!(tile.t1 > tile.t0)) return tile_number(i) + " lasts no time";
-        if (!std::isfinite(tile.speed)) return tile_number(i) + ": its speed is no number";
+        if (!(tile.t1 > tile.t0)) return tile_number(i) + " is empty (t1 <= t0)";
+        if (!std::isfinite(tile.speed)) return tile_number(i) + ": its speed is not finite";
         if (i > 0 && tile.t0 < tiles[i - 1].t1) return tile_number(i) + " begins before the one before it ends";
         constexpr double kUnit = 1e-15;
         if (!(std::abs(glm::length(tile.direction) - 1) <= kUnit))
-            return tile_number(i) + ": its direction is no unit vector";
+            return tile_number(i) + ": its direction is not a unit vector";
         double farthest = 0;
         const double beyond = excess(a, b, tile, farthest);
         if (!(tile.gap >= -line_tolerance(farthest))) return tile_number(i) + ": its gap is negative";

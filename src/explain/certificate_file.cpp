@@ -112,7 +112,7 @@ std::vector<QueryCertificate> read_certificates(std::string_view text, const std
     const JsonText value = parse_json(text, file);
     const JsonPlace place(value, file);
     const auto version = place.is_object() ? place.find("mobbscope_certificate") : std::nullopt;
-    if (!version) throw InputError(file, "is no certificate: mobbscope query --certificate writes one");
+    if (!version) throw InputError(file, "is not a certificate: mobbscope query --certificate writes one");
     if (version->integer(1, kMaxInt) > kVersion) version->fail("it is of a newer version of Mobbscope");
     std::vector<QueryCertificate> out;
     std::set<int> known;

@@ -99,7 +99,9 @@ std::string EventValues::text(EventField field, int side, int step, bool exact) 
     }
     const auto number = [&](double value) {
         if (about.unit.empty()) return std::to_string(static_cast<std::int64_t>(value));
-        return exact ? format_double(value) : formatted("%.3f", value);
+        if (exact) return format_double(value);
+        // Rows of small values differ too.
+        return formatted(value != 0 && std::abs(value) < 1e-3 ? "%.3g" : "%.3f", value);
     };
     return range.least == range.most ? number(range.least) : number(range.least) + ".." + number(range.most);
 }

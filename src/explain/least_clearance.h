@@ -43,8 +43,7 @@ struct NearestPair {
 };
 
 /// The least clearance over time, as clearance_over_time has it; none if the two share no time. `near`: samples that
-/// may be nearest, which makes it faster. The answer does not depend on it, but for which of equally near pairs is
-/// told.
+/// may be nearest, which makes it faster. It only affects which of several equally near pairs is returned.
 std::optional<NearestPair> least_clearance(const mobb::PlacedClip& a, const ClipDisks& disks_a,
                                            const mobb::PlacedClip& b, const ClipDisks& disks_b,
                                            const std::optional<NearestPair>& near = {});

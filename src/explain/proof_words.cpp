@@ -13,16 +13,10 @@ namespace {
 
 constexpr double kWorthNaming = 1e-3;  // metres or seconds: less is shown as 0
 
-/// A number that is promised: what is left off makes it less, but for what rounding took from it.
-std::string promised(double value, const char* unit) {
-    const double shown = value < 10 ? 1000 : 100;
-    return with_unit(std::floor((value + 1e-9) * shown) / shown, unit);
-}
-
 std::string result(const Certificate& certificate) {
     if (certificate.contact) return "No contact before " + with_unit(certificate.contact->time, "s") + ".";
     const double gap = std::ranges::min(certificate.tiles, {}, &Tile::gap).gap;
-    return gap < kWorthNaming ? "They never collide." : "Proven bound: at least " + promised(gap, "m") + " apart.";
+    return gap < kWorthNaming ? "They never collide." : "Proven bound: at least " + proven_words(gap, "m") + " apart.";
 }
 
 std::string cost(std::span<const TraversalEnd> ends) {
@@ -56,12 +50,13 @@ std::string doubt_words(const std::string& name_a, const mobb::PlacedClip& a, co
 }
 
 std::string margin_words(const Margins& margins, const std::string& b) {
-    const std::string grow = margins.growth < kWorthNaming ? "Nothing is proven of larger radii"
-                                                           : "Both radii may grow by " + promised(margins.growth, "m");
+    const std::string grow = margins.growth < kWorthNaming
+                                 ? "Nothing is proven of larger radii"
+                                 : "Both radii may grow by " + proven_words(margins.growth, "m");
     const double seconds = margins.shift_in_time;
     if (std::isinf(seconds)) return grow + "; " + b + " may start at any time.";
     if (seconds < kWorthNaming) return grow + "; nothing is proven of other starts of " + b + ".";
-    return grow + "; " + b + " may start up to " + promised(seconds, "s") + " earlier or later.";
+    return grow + "; " + b + " may start up to " + proven_words(seconds, "s") + " earlier or later.";
 }
 
 }  // namespace mobbscope

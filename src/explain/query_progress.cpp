@@ -86,7 +86,7 @@ int event_of(const Step& step, const mobb::Trace& trace, const FittedScene& fitt
         found += counts ? 1 : 0;
         if (found == wanted) return event;
     }
-    const std::string there_is = found == 0 ? "none such" : "only " + std::to_string(found);
+    const std::string there_is = found == 0 ? "none" : "only " + std::to_string(found);
     throw ViewMismatch("step", "there is no step " + to_string(step) + ": the query has " + there_is);
 }
 

@@ -16,7 +16,7 @@ namespace mobbscope {
 /// of those that count none.
 bool is_counted(const Step& step, const mobb::Trace& trace, int event, const mobb::Tree& a, const mobb::Tree& b);
 
-/// The event that a step means in the trace of a query of the scene. Throws std::invalid_argument if it has none such.
+/// The event that a step means in the trace of a query of the scene. Throws std::invalid_argument if it has none.
 int event_of(const Step& step, const mobb::Trace& trace, const FittedScene& fitted, int query);
 
 /// What is known of a node that has been tested.

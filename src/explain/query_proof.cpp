@@ -114,7 +114,7 @@ QueryProof proof_of(const FittedScene& fitted, const SceneQuery& query, const Re
     return out;
 }
 
-std::string gap_words(double gap) { return gap < kWorthMetres ? "< 1 mm" : with_unit(gap, "m"); }
+std::string gap_words(double gap) { return gap < kWorthMetres ? "< 1 mm" : proven_words(gap, "m"); }
 
 std::string line_words(std::span<const DrawnAgent> sides, const Tile& tile) {
     const double heading = std::atan2(tile.direction.x, -tile.direction.y) * 180 / std::numbers::pi;

@@ -66,14 +66,6 @@ std::string sample_outcome(std::span<const DrawnAgent> sides, const mobb::Trace:
 
 }  // namespace
 
-std::string with_unit(double value, const char* unit) {
-    const double size = std::abs(value);
-    const int digits = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
-    // Below a millimetre more decimals are needed to say anything, above 10 fewer.
-    const int decimals = std::clamp(size >= 10 ? 2 : digits < -3 ? 2 - digits : 3, 0, 12);
-    return formatted("%.*f %s", decimals, value, unit);
-}
-
 std::string overlap_words(const mobb::PlacedClip& a, const mobb::PlacedClip& b, int i, int j) {
     return (a.is_linear() || b.is_linear() ? "up to " : "") + with_unit(most_overlap(a, b, i, j), "m");
 }
@@ -99,19 +91,19 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
-std::string plain_outcome(const mobb::Trace::Event& event, std::string (*number)(double)) {
+std::string plain_outcome(const mobb::Trace::Event& event) {
     // In the order of the outcomes.
     constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
     static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
     std::string out = kWords[static_cast<std::size_t>(event.outcome)];
     if (event.outcome == mobb::Outcome::separated)
-        out += " along axis " + std::to_string(event.axis) + " by " + number(event.gap) + " m";
+        out += " along axis " + std::to_string(event.axis) + " by " + format_double(event.gap) + " m";
     if (event.test != mobb::TestKind::samples) return out;
     out += " (" + counted(event.pairs.size(), "pair", "pairs") + " measured";
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {
         const mobb::MeasuredPair& pair = event.pairs.back();
         out += ", samples " + std::to_string(pair.i) + " and " + std::to_string(pair.j) + " at " +
-               number(pair.distance) + " m";
+               format_double(pair.distance) + " m";
     }
     return out + ')';
 }

@@ -1,6 +1,7 @@
 /// Queries in words.
 #pragma once
 
+#include <base/text.h>
 #include <explain/avoidable.h>
 #include <mobb/trace.h>
 #include <scene/drawn_agent.h>
@@ -21,9 +22,9 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 /// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
-/// The same without the trees: "separated along axis 1 by 0.183 m", "hit (3 pairs measured, samples 4 and 5 at 0.3 m)".
-/// `number`: how numbers are written.
-std::string plain_outcome(const mobb::Trace::Event& event, std::string (*number)(double));
+/// The same without the trees, with all digits, for comparing traces: "separated along axis 1 by 0.183 m", "hit (3
+/// pairs measured, samples 4 and 5 at 0.3 m)".
+std::string plain_outcome(const mobb::Trace::Event& event);
 
 /// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"
 /// `a`, `b`: what the nodes are called.
@@ -61,9 +62,6 @@ std::string answer_sentence(std::span<const DrawnAgent> sides, const RecordedQue
 
 /// "12 time tests, 7 2D box tests, 5 pairs of samples".
 std::string cost_words(const mobb::TestCounts& tests);
-
-/// "0.183 m", "0.42 s": three digits or millimetres, whichever is more.
-std::string with_unit(double value, const char* unit);
 
 /// How deep two samples that collide overlap: "0.120 m", or "up to 0.120 m" where one of them moves, as they only touch
 /// at first.

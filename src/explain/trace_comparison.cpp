@@ -62,7 +62,7 @@ std::string side_words(const mobb::Trace& trace, const TraceDifference& differen
         out = "called by step " + std::to_string(event.parent) + " at depth " + std::to_string(event.depth) + ", ";
     }
     out += std::to_string(event.a) + " x " + std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) +
-           ": " + plain_outcome(event, format_double);
+           ": " + plain_outcome(event);
     return out;
 }
 

@@ -113,7 +113,7 @@ struct RecordedTraversal {
 
 /// The step of the second traversal that goes with one of the first. With a step that decided, the one that decided
 /// about the same moment: `moment` if the step is about that, else the middle of its time. With one that went on, the
-/// last above that which is about all of its time. With the last, the last. Where nothing was decided about it, one as
+/// last above that which is about all of its time. With the last, the last. Where no test decides about it, one as
 /// far on. Requires a step of the first; `both`: of these traversals.
 int matching_step(const TraversalComparison& both, const RecordedTraversal& first, const RecordedTraversal& second,
                   int step, std::optional<double> moment = {});

@@ -25,10 +25,13 @@ struct Relation {
     float sure_slack;  ///< metres by which disks must overlap to collide for sure
 };
 
-/// How well it is known when samples share time: not at all; but for samples that begin about when others end, which
-/// may share a moment, from rounding; or so that samples which might share more than kMinOverlap are all known, but
-/// whether A's do with their first partner is not, or is.
-enum class Timed { badly, nearly, fairly, well };
+/// How well it is known which samples share time.
+enum class Timed {
+    badly,   ///< unknown
+    nearly,  ///< known, except where two samples only touch
+    fairly,  ///< all partners are known; whether A's sample shares enough time with the first one is not
+    well,    ///< all known
+};
 
 /// When B's samples begin against A's, of one dt.
 struct Shift {

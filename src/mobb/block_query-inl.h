@@ -399,7 +399,7 @@ inline bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& 
 MOBB_INLINE bool is_shallow(const PlacedBlocks& a, const PlacedBlocks& b) {
     return std::min(a.blocks().levels(), b.blocks().levels()) == 1;
 }
-/// Whether a first look says all but of samples that are near.
+/// True if the window test alone decides every pair that is not close.
 MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
     return shift.timed == Timed::well && is_shallow(a, b);
 }

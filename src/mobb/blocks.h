@@ -160,8 +160,8 @@ class alignas(64) Blocks {
         return kPhasesApart[static_cast<std::uint32_t>(samples) % std::uint32_t{kRun}];
     }
     /// Windows for the blocks of a level above 0: with `outer` alone, and about every span(level - 1)-th sample, which
-    /// `number` counts. They reach half a block before and behind, and half of the way to the next window
-    /// more, as B's may be so far from where it should be. Window `number` is at place_of_number(number).
+    /// `number` counts. They cover half a block before and behind, and half a window spacing more, as B's
+    /// nearest stored window can be that far off. Window `number` is at place_of_number(number).
     Rings windows(int level, int number) const {
         const Level& of = levels_[static_cast<std::size_t>(level)];
         const int phase = (number + kFanOut / 2) & (kFanOut - 1);
@@ -470,8 +470,8 @@ inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
     return roots_meet(a, b) && detail::intersects(a, b);
 }
 
-/// The first of `others` that collides with `a`: its index, or none. One by one, as whatever is worked out for those
-/// behind it is in vain.
+/// The first of `others` that collides with `a`: its index, or none. Stops at the first hit: work
+/// on later ones would be wasted.
 inline std::optional<std::size_t> intersects_any(const PlacedBlocks& a, std::span<const PlacedBlocks* const> others) {
     // Placements lie anywhere in memory: they are fetched a few ahead.
     constexpr std::size_t kAhead = 4;
@@ -488,8 +488,8 @@ struct BlocksPair {
     const PlacedBlocks* b = nullptr;
 };
 
-/// Whether each pair collides: sooner than one by one. Throws std::invalid_argument unless there are as many answers as
-/// pairs.
+/// Whether each pair collides. Where placements are in the caches this takes less time than one by one, most of all for
+/// short clips. Throws std::invalid_argument unless there are as many answers as pairs.
 void intersects_each(std::span<const BlocksPair> pairs, std::span<bool> answers);
 
 /// What watches the traversal of blocks, as TraversalObserver says: blocks are nodes by their numbers (see

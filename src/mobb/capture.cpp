@@ -28,7 +28,7 @@ namespace {
 
 // --- a scene as text
 
-/// Goes into a file piece by piece, or behind a text. Once that fails the rest is passed over.
+/// Goes into a file piece by piece, or behind a text. Once that fails the rest is ignored.
 class SceneText {
   public:
     explicit SceneText(int descriptor) : descriptor_(descriptor) {}
@@ -271,7 +271,7 @@ void check(const Capture& capture) {
             return sample >= 0 && sample < side.clip->count();
         };
         if (!is_of(capture.a, contact->a_sample) || !is_of(capture.b, contact->b_sample))
-            refuse("the contact of a captured query is of samples that its clips do not have");
+            refuse("the contact of a captured query names samples that its clips do not have");
         // Written so that NaN fails it.
         const auto is_length = [](double metres) { return metres >= 0 && std::isfinite(metres); };
         if (!std::isfinite(contact->time) || !is_length(contact->distance) || !is_length(contact->radii))
@@ -449,8 +449,7 @@ CrashCapture::CrashCapture(const CaptureRing& ring, const std::filesystem::path&
     const std::lock_guard lock(State::mutex);
     const auto is_free = [](const std::atomic<State*>& state) { return !state.load(); };
     const auto place = std::find_if(State::all.begin(), State::all.end(), is_free);
-    if (place == State::all.end())
-        throw std::length_error("no more than 64 rings can be captured when a program crashes");
+    if (place == State::all.end()) throw std::length_error("at most 64 rings can be captured when a program crashes");
     if (std::all_of(State::all.begin(), State::all.end(), is_free)) State::install();
     state_->give_stack();
     *place = state_.get();

@@ -199,7 +199,7 @@ Clip flattened(const Chain& chain) {
     for (int k = 1; k < chain.links(); ++k) {
         if (chain.part(k).clip().motion() != motion) throw std::invalid_argument("its clips are both held and linear");
     }
-    if (chain.until() == chain.first()) throw std::invalid_argument("all that is left takes no time");
+    if (chain.until() == chain.first()) throw std::invalid_argument("the rest of the chain has no duration");
     std::vector<Disk> samples;
     samples.reserve(static_cast<std::size_t>(chain.end() - chain.first()));
     for (int i = chain.first(); i < chain.end(); ++i) samples.push_back(chain.disk(i));

@@ -246,7 +246,7 @@ inline Box Chain::box(const ChainNode& node) const {
 }
 
 /// The clip of all samples of a chain that have not been dropped, in its frame: bit for bit the same disks. Throws
-/// std::invalid_argument if the links are of both motions, or if all that is left takes no time.
+/// std::invalid_argument if the links are of both motions, or if the rest of the chain has no duration.
 Clip flattened(const Chain& chain);
 
 }  // namespace mobb

@@ -184,7 +184,7 @@ void report_apart(const A& a, const B& b, int first, int end, const SampleShift&
     }
 }
 
-/// visit_sample_pairs for held samples of equal dt: most pairs are passed over unmeasured, two at a time.
+/// visit_sample_pairs for held samples of equal dt: most pairs are skipped unmeasured, two at a time.
 /// `relation` is that of the two as they are stored.
 template <StoredSamples A, StoredSamples B, TraversalObserver Observer, class OnHit>
 [[gnu::noinline]] PairVisit visit_shifted_pairs(const SampleShift& shift, const StoredRelation& relation, const A& a,

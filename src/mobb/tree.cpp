@@ -10,8 +10,9 @@
 namespace mobb {
 
 void check(const FitOptions& options) {
-    if (static_cast<std::size_t>(options.tree) >= kTreeKindCount) throw std::invalid_argument("tree is no TreeKind");
-    if (static_cast<std::size_t>(options.axes) >= axes_names().size()) throw std::invalid_argument("axes is no Axes");
+    if (static_cast<std::size_t>(options.tree) >= kTreeKindCount) throw std::invalid_argument("tree is not a TreeKind");
+    if (static_cast<std::size_t>(options.axes) >= axes_names().size())
+        throw std::invalid_argument("axes is not an Axes");
     if (options.leaf < 1) throw std::invalid_argument("leaf must be at least 1");
     if (options.levels < 0) throw std::invalid_argument("levels must be 0 (all) or more");
     const double w = options.time_scale;
@@ -144,7 +145,7 @@ void Tree::fit_box(int index, int level, const NodeChange& change) {
     if (index == change.node) {
         kind = change.kind.value_or(kind);
         axes = change.axes.value_or(axes);
-        if (info(kind).of_blocks) throw std::invalid_argument("a block is no box of a single node");
+        if (info(kind).of_blocks) throw std::invalid_argument("a block is not a box of a single node");
     }
     Node& node = nodes_[static_cast<std::size_t>(index)];
     // A node that is not upright has no rectangle that bounds it: those above the change look at all samples.

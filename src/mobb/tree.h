@@ -1,4 +1,4 @@
-/// MOBB and UMOBB trees (paper, Sections 3 and 4), and two kinds beyond the paper, over one clip.
+/// MOBB and UMOBB trees (paper, Sections 3 and 4), and three kinds beyond the paper, over one clip.
 #pragma once
 
 #include <mobb/blocks.h>

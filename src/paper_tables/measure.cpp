@@ -310,7 +310,7 @@ std::string machine_words() {
 #ifdef NDEBUG
     const char* const build = "optimised";
 #else
-    const char* const build = "with assertions: times are no measure";
+    const char* const build = "with assertions: do not use these times";
 #endif
     return processor() + ", " + counted(std::thread::hardware_concurrency(), "core", "cores") + ", " +
            (__VERSION__[0] >= '0' && __VERSION__[0] <= '9' ? "GCC " : "") + __VERSION__ + ", " + build;

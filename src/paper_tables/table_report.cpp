@@ -127,8 +127,9 @@ void write_levels(std::ostream& out, const TableReport& report) {
         if (row.leaf == 0 || row.levels == 1) continue;
         out << "\n"
             << row.method << ": " << formatted("%.1f", row.trees.depth) << " levels, "
-            << formatted("%.1f", row.trees.nodes) << " nodes, " << formatted("%.1f", row.trees.bytes / 1024)
-            << " KiB a tree, built in " << formatted("%.1f", row.trees.build_ns / 1000) << " us\n"
+            << formatted("%.1f", row.trees.nodes) << " nodes, "
+            << bytes_text(static_cast<std::uintmax_t>(std::lround(row.trees.bytes))) << " a tree, built in "
+            << formatted("%.1f", row.trees.build_ns / 1000) << " us\n"
             << "level   pairs  apart in time  separated  sampled  queries that end  volume, MOBB = 1\n";
         for (std::size_t i = 0; i < row.pair_levels.size(); ++i) {
             const PairLevel& level = row.pair_levels[i];

@@ -34,7 +34,7 @@ void leave_or_put_away(Notifications& notifications, ReviewScreen& screen) {
     if (notifications.has_up()) return notifications.put_away();
     screen.leave();
     if (screen.shown()) return;
-    notifications.tell(MessageLevel::info, "The picture tests are left, not closed",
+    notifications.tell(MessageLevel::info, "The picture tests stay open in the background",
                        {{"review.back", "", "Back to them"}});
 }
 
@@ -117,7 +117,7 @@ std::vector<Command> case_commands() {
                  .choices = case_names,
                  .chosen = so(
                      [](const Review& review, const std::string& name) { return review.shown().file.name == name; })}),
-        Command("review.failed_only", "Only failing cases", "Leaves out of the list what passed.",
+        Command("review.failed_only", "Only failing cases", "Hides cases that passed.",
                 [](ReviewScreen& screen) { screen.review()->look.failed_only = !screen.review()->look.failed_only; },
                 {.shortcut = "L", .enabled = has_review, .checked = so([](const Review& review) {
                                                              return review.look.failed_only;
@@ -299,17 +299,17 @@ std::vector<Command> golden_commands() {
                  .enabled = when([](const Review& review) { return !review.marked().empty(); },
                                  []() -> std::string_view { return "no case is marked"; })}),
         Command("review.accept_viewed", "Accept all that were viewed",
-                "Makes goldens of the pictures of all failing cases that were looked at.",
+                "Makes goldens of the pictures of all failing cases that were viewed.",
                 [](ReviewScreen& screen) { accept_cases(screen, screen.review()->viewed()); },
                 {.shortcut = "Ctrl+Shift+A",
                  .enabled = when([](const Review& review) { return !review.viewed().empty(); },
-                                 []() -> std::string_view { return "none that could be accepted was looked at"; })}),
-        Command("review.undo", "Undo", "Gives back the goldens that were there before.",
+                                 []() -> std::string_view { return "no case that can be accepted was viewed"; })}),
+        Command("review.undo", "Undo", "Restores the goldens that were there before.",
                 [](ReviewScreen& screen) { screen.tell(screen.review()->goldens.undo()); },
                 {.shortcut = "Ctrl+Z",
                  .enabled = when([](const Review& review) { return review.goldens.can_undo(); }, why_no_undo),
                  .title_end = [](const ReviewScreen& screen) { return ' ' + screen.review()->goldens.undo_title(); }}),
-        Command("review.redo", "Redo", "Takes again the goldens that were given back.",
+        Command("review.redo", "Redo", "Accepts again the pictures that were undone.",
                 [](ReviewScreen& screen) { screen.tell(screen.review()->goldens.redo()); },
                 {.shortcut = "Ctrl+Y Ctrl+Shift+Z",
                  .enabled = when([](const Review& review) { return review.goldens.can_redo(); }, why_no_redo),
@@ -343,7 +343,7 @@ std::vector<Command> run_commands() {
                     screen.poll();
                 },
                 {.shortcut = "Shift+R F5", .enabled = if_idle()}),
-        Command("review.cancel", "Stop drawing", "Leaves the cases that are not drawn yet as they were.",
+        Command("review.cancel", "Stop drawing", "Stops; cases that are not drawn yet stay as they were.",
                 &ReviewScreen::cancel,
                 {.enabled = when([](const Review& review) { return review.run.drawing(); },
                                  []() -> std::string_view { return "nothing is drawn"; })}),

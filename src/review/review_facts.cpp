@@ -20,14 +20,14 @@ std::string headline_of(const ReviewCase& one) { return one.accepted ? "Accepted
 
 /// Of one that passed, whether the picture is the very golden.
 std::string passed_sentence(const ReviewCase& one) {
-    if (draws_nothing(one.result)) return "All that it holds is as its goldens say.";
+    if (draws_nothing(one.result)) return "All that it holds agrees with its goldens.";
     const auto& figures = one.result.image;
-    if (!figures || figures->largest == 0) return "The picture is the golden's.";
+    if (!figures || figures->largest == 0) return "The picture equals the golden.";
     if (figures->differing == 0)
         return "No pixel differs by more than " + std::to_string(figures->largest) + " of 255.";
     return counted(figures->differing, "pixel differs", "pixels differ") + ", by up to " +
            std::to_string(figures->largest) + " of 255" +
-           (figures->passes ? ": no more than may." : "; see the remarks.");
+           (figures->passes ? ": within what is allowed." : "; see the remarks.");
 }
 
 /// What it comes to, in a sentence.

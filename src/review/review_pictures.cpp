@@ -82,7 +82,7 @@ const char* why_no_actual(const ReviewCase& one) {
 }
 
 const char* why_no_difference(const ReviewCase& one, const ReviewPictures& pictures) {
-    if (pictures.golden && pictures.actual) return "Pictures of two sizes have no difference by pixels";
+    if (pictures.golden && pictures.actual) return "Pictures of different sizes cannot be compared by pixels";
     return pictures.actual ? why_no_golden(one) : why_no_actual(one);
 }
 
@@ -349,7 +349,7 @@ void held_words(Ui& ui, const ReviewCase& one, const ReviewPictures& pictures) {
     const std::vector<picture_tests::Finding> findings = one.accepted ? unmended(one.result) : one.result.findings;
     if (findings.empty()) {
         words(ui.style.quiet, one.outcome() == picture_tests::CaseOutcome::passed
-                                  ? "The case holds no picture. All that it holds is as its goldens say."
+                                  ? "The case holds no picture. All that it holds agrees with its goldens."
                               : one.accepted ? "The picture was not drawn: " + cleaned(one.result.not_drawn)
                                              : cleaned(one.result.message));
     }

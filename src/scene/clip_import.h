@@ -56,7 +56,7 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
 /// A clip with inline samples, between which it moves otherwise.
 ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion);
 
-/// Puts them into the scene; those that are no longer there, or are of another source now, are passed over. What was
+/// Puts them into the scene; those that are no longer there, or are of another source now, are ignored. What was
 /// recorded of them is dropped: traces, and of expected answers the contact. Agents that started when their track did
 /// go on doing so. Throws std::invalid_argument where somebody would start too far from 0 for the clip's dt.
 void replace_clips(Scene& scene, const std::vector<ReimportedClip>& clips);

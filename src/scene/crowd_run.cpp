@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> kKinds{"chosen", "pivoted", "forced"};
 
 PlayKind read_kind(const JsonPlace& place) {
     if (const auto kind = enumerator_named<PlayKind>(kKinds, place.string())) return *kind;
-    place.fail(in_quotes(place.string()) + " is no kind of play; give " + listed(kKinds));
+    place.fail(in_quotes(place.string()) + " is not a kind of play; give " + listed(kKinds));
 }
 
 /// Where the body stands and faces in the first sample's place, in the world.
@@ -61,7 +61,7 @@ class CrowdReader {
     static std::uint64_t read_seed(const JsonPlace& place) {
         // Beyond 2^53 a double no longer tells whole numbers apart.
         const double seed = place.number(0, static_cast<double>(kMaxSeed));
-        if (seed != std::floor(seed)) place.fail(format_double(seed) + " is no seed; give a whole number");
+        if (seed != std::floor(seed)) place.fail(format_double(seed) + " is not a seed; give a whole number");
         return static_cast<std::uint64_t>(seed);
     }
 
@@ -135,7 +135,7 @@ class CrowdReader {
     void check_turn(const JsonPlace& place, const GraphMove& move) const {
         const double turn = place.number();
         if (std::remainder(turn, kTurnStep) != 0)
-            place.fail(brief(turn) + " degrees are no multiple of " + brief(kTurnStep));
+            place.fail(brief(turn) + " degrees are not a multiple of " + brief(kTurnStep));
         if (turn == 0 || run_.turn_rate == kTurnsAtOnce) return;
         const double seconds = turn_at_rate(turn, run_.turn_rate).seconds;
         const double lasts = clip_of(move).until_next();

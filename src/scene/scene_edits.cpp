@@ -233,7 +233,7 @@ int duplicate_agent(Scene& scene, int agent) {
 }
 
 void remove_agent(Scene& scene, int agent) {
-    if (scene.agents.size() == 1) throw std::invalid_argument("the last agent stays: a scene needs one");
+    if (scene.agents.size() == 1) throw std::invalid_argument("the last agent cannot be removed: a scene needs one");
     agent_at(scene, agent);
     ImpliedQueries implied(scene);
     scene.agents.erase(scene.agents.begin() + agent);
@@ -259,7 +259,7 @@ void remove_agent(Scene& scene, int agent) {
 }
 
 std::size_t add_query(Scene& scene, int a, int b) {
-    if (a == b) throw std::invalid_argument("an agent is not asked against itself");
+    if (a == b) throw std::invalid_argument("an agent cannot be queried against itself");
     if (scene.queries.empty() && scene.agents.size() > 1) make_queries_explicit(scene);
     const auto side = [&](int agent) {
         const Agent& of = agent_at(scene, agent);
@@ -271,7 +271,8 @@ std::size_t add_query(Scene& scene, int a, int b) {
 
 void remove_query(Scene& scene, std::size_t query) {
     make_queries_explicit(scene);
-    if (scene.queries.size() <= 1) throw std::invalid_argument("the last query stays: without any all pairs are asked");
+    if (scene.queries.size() <= 1)
+        throw std::invalid_argument("the last query cannot be removed: without queries all pairs are asked");
     scene.queries.erase(scene.queries.begin() + static_cast<std::ptrdiff_t>(query));
     const int gone = static_cast<int>(query);
     renumber_queries(scene, [&](int each) -> std::optional<int> {

@@ -22,12 +22,12 @@ std::optional<mobb::TreeKind> find_tree_kind_at(const JsonPlace& place) {
 
 mobb::TreeKind read_tree_kind(const JsonPlace& place) {
     if (const auto kind = find_tree_kind_at(place)) return *kind;
-    place.fail(in_quotes(place.string()) + " is no tree; give one of " + listed(mobb::tree_kind_names()));
+    place.fail(in_quotes(place.string()) + " is not a tree; give one of " + listed(mobb::tree_kind_names()));
 }
 
 mobb::Axes read_axes(const JsonPlace& place) {
     if (const auto axes = mobb::axes_from_name(place.string())) return *axes;
-    place.fail(in_quotes(place.string()) + " names no axes; give one of " + listed(mobb::axes_names()));
+    place.fail(in_quotes(place.string()) + " is not a choice of axes; give one of " + listed(mobb::axes_names()));
 }
 
 // ---- contacts and traces
@@ -63,14 +63,14 @@ std::string test_names() {
 
 mobb::TestKind read_test(const JsonPlace& place) {
     if (const auto test = mobb::test_from_name(place.string())) return *test;
-    place.fail(in_quotes(place.string()) + " is no kind of test; give " + test_names());
+    place.fail(in_quotes(place.string()) + " is not a kind of test; give " + test_names());
 }
 
 mobb::Outcome read_outcome(const JsonPlace& place, mobb::TestKind test) {
     const auto outcome = mobb::outcome_from_name(place.string());
     if (!outcome) {
         place.fail(in_quotes(place.string()) +
-                   " is no outcome; give disjoint_in_time, separated, overlap, hit or no_hit");
+                   " is not an outcome; give disjoint_in_time, separated, overlap, hit or no_hit");
     }
     if (!fits(test, *outcome)) {
         place.fail("a test of kind " + std::string(mobb::name(test)) + " cannot end as " + place.string());
@@ -155,7 +155,7 @@ std::array<std::optional<std::int64_t>, mobb::kTestKindCount> read_test_counts(c
     for (int i = 0; i < place.members(); ++i) {
         const JsonPlace member = place.member(i);
         const auto test = mobb::test_from_name(member.key());
-        if (!test) member.fail(in_quotes(member.key()) + " is no kind of test; give " + test_names());
+        if (!test) member.fail(in_quotes(member.key()) + " is not a kind of test; give " + test_names());
         out[test->index()] = member.count();
     }
     return out;

@@ -38,7 +38,7 @@ ImportOptions merged(ImportOptions base, const ImportOptions& over) {
 
 Color read_color(const JsonPlace& place) {
     const std::optional<Color> color = color_from_text(place.string());
-    if (!color) place.fail(in_quotes(place.string()) + " is no colour; give one like #E69F00");
+    if (!color) place.fail(in_quotes(place.string()) + " is not a colour; give one like #E69F00");
     return *color;
 }
 
@@ -77,13 +77,13 @@ void read_option(const JsonPlace& place, std::string_view, Radius& to) {
 
 void read_option(const JsonPlace& place, std::string_view, Origin& to) {
     const auto origin = origin_from_name(place.string());
-    if (!origin) place.fail(in_quotes(place.string()) + " is no origin; give keep, start or start_heading");
+    if (!origin) place.fail(in_quotes(place.string()) + " is not an origin; give keep, start or start_heading");
     to = *origin;
 }
 
 void read_option(const JsonPlace& place, std::string_view, mobb::Motion& to) {
     const auto motion = mobb::motion_from_name(place.string());
-    if (!motion) place.fail(in_quotes(place.string()) + " is no motion; give held or linear");
+    if (!motion) place.fail(in_quotes(place.string()) + " is not a motion; give held or linear");
     to = *motion;
 }
 
@@ -189,7 +189,7 @@ HangingJoint read_hanging_joint(const JsonPlace& place) {
     place.require_size(kPoseNumbers, "[qx, qy, qz, qw, wx, wy, wz, x, y, z]");
     const auto number = [&](int i, double most) { return place[i].number(-most, most); };
     const glm::dquat rotation(number(3, 1), number(0, 1), number(1, 1), number(2, 1));
-    if (!(std::abs(glm::length(rotation) - 1) < 1e-6)) place.fail("its first four numbers are no unit quaternion");
+    if (!(std::abs(glm::length(rotation) - 1) < 1e-6)) place.fail("its first four numbers are not a unit quaternion");
     return {rotation,
             {number(4, kMostSpeed), number(5, kMostSpeed), number(6, kMostSpeed)},
             {number(7, mobb::kMaxLength), number(8, mobb::kMaxLength), number(9, mobb::kMaxLength)}};
@@ -309,7 +309,7 @@ class SceneReader {
         place.allow_only({"deg", "seconds"});
         const double deg = place.require("deg").number(-180, 180);
         const JsonPlace seconds = place.require("seconds");
-        if (seconds.number(0, mobb::kMaxTime) == 0) seconds.fail("must be over 0: nobody turns in no time");
+        if (seconds.number(0, mobb::kMaxTime) == 0) seconds.fail("must be greater than 0");
         place.attempt([&] { bend(clip, {deg, seconds.number()}); });
     }
 
@@ -348,7 +348,7 @@ class SceneReader {
         if (source.string().find('\0') != std::string::npos)
             source.fail("the source holds a NUL byte, as no file name does; remove it");
         if (is_standard_input(source.string()))
-            source.fail("standard input is no source of a scene's clip; name a clip file");
+            source.fail("standard input is not a source of a scene's clip; name a clip file");
         clip.source = source.string();
         clip.options = read_import_options(place);
         for (const std::string& key : applicable(clip.options, folder_ / *clip.source).left_out) {

@@ -71,7 +71,7 @@ void show_step(Scene& scene, const StepLink& link) {
     const std::size_t count = query_count(scene);
     if (static_cast<std::size_t>(link.query) >= count) {
         refuse_link(scene, link,
-                    count == 0 ? "there is nothing to ask, so no step"
+                    count == 0 ? "there are no queries, so no steps"
                                : "there is no query " + std::to_string(link.query) + ": they go from 0 to " +
                                      std::to_string(count - 1));
     }

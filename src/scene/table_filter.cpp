@@ -41,6 +41,7 @@ bool in_number(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0
 
 constexpr int kMostNesting = 100;
 constexpr int kMostComparisons = 1000;
+constexpr std::size_t kMostAround = 60;  // characters that are shown at either side of what is wrong
 
 class FilterParser {
   public:
@@ -151,7 +152,7 @@ class FilterParser {
                 fail_expecting(at_ < text_.size() ? "a field must stand here" : "a field is missing", names);
             std::vector<std::string> plain;
             for (const TableField* field : fields_) plain.emplace_back(field->name);
-            fail_expecting(in_quotes(word) + " is no field" + did_you_mean(word, plain), names);
+            fail_expecting(in_quotes(word) + " is not a field" + did_you_mean(word, plain), names);
         }
         const TableField& field = **found;
         Term term{.field = static_cast<int>(found - fields_.begin())};
@@ -224,7 +225,8 @@ class FilterParser {
             return;
         }
         const auto parsed = parse_double(number);
-        if (!parsed) fail_expecting(number.empty() ? "a number is missing" : in_quotes(number) + " is no number", {});
+        if (!parsed)
+            fail_expecting(number.empty() ? "a number is missing" : in_quotes(number) + " is not a number", {});
         const bool equality = term.comparison == Comparison::equal || term.comparison == Comparison::not_equal;
         if (equality && field.unit.empty() && *parsed != std::floor(*parsed))
             fail_expecting("the " + std::string(field.name) + " is a whole number", {});
@@ -241,8 +243,9 @@ class FilterParser {
             ++digits;
         if (digits == 0) return;
         at_ += number.size();
-        fail_expecting("write " + std::string(number) + '.' + std::string(behind.substr(1, digits)) + " with a point",
-                       {});
+        fail_expecting(
+            "write " + in_quotes(std::string(number) + '.' + std::string(behind.substr(1, digits))) + " with a point",
+            {});
     }
 
     /// Whether a word behind a value goes on with the filter, well written or nearly.
@@ -282,7 +285,7 @@ class FilterParser {
             }
             const std::string what = "the " + std::string(field.name);
             fail_expecting(names.empty() ? what + (field.unit.empty() ? " has no unit" : " is given without its unit")
-                                         : in_quotes(word) + " is no unit of " + what + ": " + either(names),
+                                         : in_quotes(word) + " is not a unit of " + what + ": " + either(names),
                            {names.begin(), names.end()});
         }
         pass(word.size());
@@ -336,11 +339,8 @@ std::string term_words(FieldTable fields, std::span<const Term> terms, int index
             return of(term.left) + ", and " + of(term.right);
         case Term::Kind::one_of:
             return of(term.left) + ", or " + of(term.right);
-        case Term::Kind::none_of: {
-            const bool plain = terms[static_cast<std::size_t>(term.left)].kind == Term::Kind::compare;
-            const std::string words = term_words(fields, terms, term.left);
-            return "it is not so that " + (plain ? words : '(' + words + ')');
-        }
+        case Term::Kind::none_of:
+            return "not (" + term_words(fields, terms, term.left) + ')';
         case Term::Kind::compare:
             break;
     }
@@ -373,9 +373,23 @@ TableFilter::TableFilter(FieldTable fields, std::string_view text)
 std::string TableFilter::words() const { return term_words(fields_, terms_, static_cast<int>(terms_.size()) - 1); }
 
 std::string with_caret(std::string_view text, const FilterError& error) {
+    const std::string before = cleaned(text.substr(0, error.at())), after = cleaned(text.substr(error.at()));
+    const auto begins_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; };
+    // What is near the place is shown of a long text.
+    std::size_t from = before.size(), to = 0, characters = 0;
+    for (; from > 0 && characters < kMostAround; --from) characters += begins_character(before[from - 1]) ? 1 : 0;
+    for (std::size_t seen = 0; to < after.size(); ++to) {
+        if (begins_character(after[to]) && ++seen > kMostAround) break;
+    }
+    std::string out;
+    if (from > 0) {
+        out = "\u2026";
+        ++characters;
+    }
+    out += before.substr(from) + after.substr(0, to);
+    if (to < after.size()) out += "\u2026";
     // Characters, not bytes, stand before the caret.
-    const std::size_t before = code_points(text.substr(0, error.at())).size();
-    return cleaned(text) + '\n' + std::string(before, ' ') + '^';
+    return out + '\n' + std::string(characters, ' ') + '^';
 }
 
 FilterCompletion completion_of(FieldTable fields, std::string_view text) {

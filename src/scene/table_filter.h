@@ -125,7 +125,7 @@ class TableFilter {
     std::vector<Term> terms_;
 };
 
-/// The text, and below it a caret where it is wrong: "gap < ?\n      ^".
+/// The text, and below it a caret where it is wrong: "gap < ?\n      ^". Of a long text what is near that place.
 std::string with_caret(std::string_view text, const FilterError& error);
 
 /// How the word at the end of a text may go on, and where that word begins.

@@ -14,7 +14,7 @@ constexpr double kSmallestDistance = 1e-6;  // metres
 
 CameraPreset read_preset(const JsonPlace& place) {
     if (const auto preset = camera_preset(place.string())) return *preset;
-    place.fail(in_quotes(place.string()) + " is no camera; give iso, top, front, side or free");
+    place.fail(in_quotes(place.string()) + " is not a camera; give iso, top, front, side or free");
 }
 
 Camera read_camera(const JsonPlace& place) {
@@ -276,7 +276,7 @@ std::vector<ViewOption> all_view_options() {
                  [](const std::string& text, ViewState& view) {
                      const std::optional<int> index = parse_int(text);
                      if (!index || *index < 0) {
-                         throw std::invalid_argument(in_quotes(text) + " is no query: give its number, from 0");
+                         throw std::invalid_argument(in_quotes(text) + " is not a query: give its number, from 0");
                      }
                      view.query = *index;
                  },
@@ -472,7 +472,7 @@ std::vector<ViewOption> all_view_options() {
                                                     .shortcut = "T",
                                                     .also = "dark light mode night appearance settings preferences",
                                                     .choices = {"dark", "light"},
-                                                    .refused_in_file = "{} is no theme",
+                                                    .refused_in_file = "{} is not a theme",
                                                     .refused_in_window = "a theme cannot be {}"}),
         choice<&ViewState::past, past_from_name>(
             {.key = "past",
@@ -489,7 +489,7 @@ std::vector<ViewOption> all_view_options() {
              .may_be_seen = [](const ViewState& view) { return view.query.has_value(); },
              .choices = {"pair", "ancestors", "siblings", "all"},
              .choice_titles = {"Only the pair under test", "+ ancestors", "+ siblings", "All"},
-             .refused_in_file = "{} are no past tests",
+             .refused_in_file = "{} is not a choice of past tests",
              .refused_in_window = "past tests cannot be {}"}),
         toggle<&ViewState::candidates>(
             {.key = "candidates",

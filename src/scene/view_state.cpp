@@ -53,7 +53,7 @@ LevelRange parse_level_range(const std::string& text) {
     if (!first || !last || *first > *last) {
         throw std::invalid_argument(
             in_quotes(text) +
-            " is no range of levels: give a level (2), a range (1:3) or leaves; levels go from 0 to " +
+            " is not a range of levels: give a level (2), a range (1:3) or leaves; levels go from 0 to " +
             std::to_string(kMaxLevel));
     }
     return {*first, *last, false};
@@ -69,7 +69,7 @@ std::optional<ValueRange> parse_value_range(const std::string& text) {
     const bool within = least && most && *least >= -mobb::kMaxTime && *most <= mobb::kMaxTime;
     if (!within || !(*least <= *most)) {
         throw std::invalid_argument(in_quotes(text) +
-                                    " is no range: give the least and the most, such as 0:2.5, from " +
+                                    " is not a range: give the least and the most, such as 0:2.5, from " +
                                     brief(-mobb::kMaxTime) + " to " + brief(mobb::kMaxTime));
     }
     return ValueRange{*least, *most};
@@ -85,9 +85,10 @@ Step parse_step(const std::string& text) {
     } else if (const std::optional<Step> found = found_step(text)) {
         return *found;
     }
-    throw std::invalid_argument(in_quotes(text) +
-                                " is no step: give an event number from 0, a percentage (40%), end, hit, leaf:3 (the "
-                                "third; likewise separated, overlap, avoidable) or depth:4");
+    throw std::invalid_argument(
+        in_quotes(text) +
+        " is not a step: give an event number from 0, a percentage (40%), end, hit, leaf:3 (the "
+        "third; likewise separated, overlap, avoidable) or depth:4");
 }
 
 std::string to_string(const LevelRange& levels) {

@@ -1269,7 +1269,7 @@ TEST(CommandEffects, EveryCommandIsTried) {
         known.emplace(command.id);
     }
     for (const std::string& id : known) EXPECT_TRUE(tried.contains(id)) << id << " needs a line in cases()";
-    for (const std::string& id : tried) EXPECT_TRUE(known.contains(id)) << id << " is no command";
+    for (const std::string& id : tried) EXPECT_TRUE(known.contains(id)) << id << " is not a command";
 }
 
 TEST(CommandEffects, AreWhatTheyAreSaidToBe) {

@@ -152,7 +152,7 @@ TEST(CommandTable, ArgumentsAreCheckedInOneSentence) {
         {"view.theme", "blue", "a theme cannot be 'blue': give dark or light"},
         {"view.past", "none", "past tests cannot be 'none': give pair, ancestors, siblings or all"},
         {"query.select", "3", "the query cannot be '3': give a whole number from 0 to 2"},
-        {"query.add", "A", "an agent is not asked against itself"},
+        {"query.add", "A", "an agent cannot be queried against itself"},
         {"go.node", "A", "the node cannot be 'A': give a name and a number, such as A 12"},
         {"go.node", "Z 1", "there is no agent 'Z' (did you mean 'A'?)"},
         {"go.node", "A 9.0", "the level cannot be '9': give a whole number from 0 to 4"},
@@ -288,7 +288,7 @@ TEST(CommandTable, LevelsStayWithinTheTrees) {
     EXPECT_EQ(session.workspace.view().levels, (LevelRange{0, 0, false}));
     run_command(session, "view.level", "900");
     run_command(session, "view.coarser");
-    EXPECT_EQ(session.workspace.view().levels.last, deepest) << "levels that no tree has are passed over";
+    EXPECT_EQ(session.workspace.view().levels.last, deepest) << "levels that no tree has are ignored";
 }
 
 TEST(CommandTable, TimeStepsStayWithinTheSpan) {

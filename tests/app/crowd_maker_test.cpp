@@ -104,7 +104,7 @@ TEST(GraphOptions, AreReadAsTheCommandLineHasThem) {
     EXPECT_EQ(order.options.seed, std::uint64_t{1} << 53);
     EXPECT_EQ(refused("hubbs=3"), "there is no option 'hubbs' (did you mean 'hubs'?)");
     EXPECT_EQ(refused("hubs"), "hubs needs a value: hubs=8");
-    EXPECT_EQ(refused("hubs=2.5"), "'2.5' is no whole number from 1 to 10000");
+    EXPECT_EQ(refused("hubs=2.5"), "'2.5' is not a whole number from 1 to 10000");
     EXPECT_NE(refused("seed=9007199254740993"), "") << "a double cannot tell it from the largest";
     EXPECT_EQ(refused("seconds=0:1"), "'0:1' is not like A:B: give two numbers such as 1:4, each from 1e-09 to 3600");
     EXPECT_EQ(refused("seconds=0.0001:1"), "");

@@ -143,6 +143,14 @@ TEST(Debugger, ARowUnderTheMouseIsItsEventEverywhere) {
     EXPECT_EQ(w.session.workspace.look.focus.branch, 0);
 }
 
+TEST(Debugger, TheListOpensAtThePresentStep) {
+    DebuggerWindow w;
+    w.key("Shift+Right");
+    w.key("R");
+    const int last = w.session.queries.events().size() - 1;
+    EXPECT_TRUE(w.has("events.row." + std::to_string(last)));
+}
+
 TEST(Debugger, TheRowOfThePresentStepIsSeen) {
     DebuggerWindow w;
     w.key("R");
@@ -209,7 +217,7 @@ TEST(Debugger, BreakpointsStopBothWays) {
     EXPECT_EQ(stops, hits);
     w.key("F4");
     EXPECT_EQ(w.step(), hits.back());
-    EXPECT_EQ(all_messages(w.session), "No breakpoint holds at a later step\n");
+    EXPECT_EQ(all_messages(w.session), "No later breakpoint\n");
     for (std::size_t i = hits.size() - 1; i > 0; --i) {
         w.key("Shift+F4");
         EXPECT_EQ(w.step(), hits[i - 1]);
@@ -399,7 +407,7 @@ TEST(Debugger, AnEditOfTheDebuggingStateKeepsHowTheQueryIsSeen) {
     const std::size_t edits = session.workspace.history.count();
     run_command(session, "breakpoint.add", "outcome = hit");
     run_command(session, "breakpoint.add", "outcome = hit");
-    EXPECT_EQ(session.workspace.history.place(), 1u) << "the same once more is no edit";
+    EXPECT_EQ(session.workspace.history.place(), 1u) << "the same once more is not an edit";
     EXPECT_LE(session.workspace.history.count(), edits);
 }
 

@@ -107,7 +107,7 @@ TEST_F(ExportTest, TheLineOfASceneThatNoFileHoldsNamesATemporaryOne) {
     expect_the_line_does_the_same("run picture.size 640x360");
     ASSERT_TRUE(session.dialogs.exporting.temporary);
     EXPECT_EQ(session.dialogs.exporting.temporary->file.extension(), ".json");
-    EXPECT_NE(all_messages(session).find("No file holds the scene as it is"), std::string::npos);
+    EXPECT_NE(all_messages(session).find("a copy was written to"), std::string::npos);
     // Seen otherwise, and with another fit beside it.
     const std::filesystem::path first = session.dialogs.exporting.temporary->file;
     expect_the_line_does_the_same("run view.top\nrun picture.without boxes");

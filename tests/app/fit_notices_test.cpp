@@ -85,7 +85,7 @@ TEST(FitNotices, NothingIsShownWhereNothingStandsOut) {
 TEST(FitNotices, OneThatOnlyTheClipCouldMendSaysSo) {
     NoticesWindow w;
     EXPECT_EQ(refusal(w.session, "tree.see_finding", "1"), "the last finding is 0");
-    EXPECT_EQ(refusal(w.session, "tree.mend"), "no other fit mends that: the clip itself would have to change");
+    EXPECT_EQ(refusal(w.session, "tree.mend"), "no other fit helps: the clip itself would have to change");
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ TEST(ImportDialog, AColumnOfRadiiIsChosen) {
     run_command(w.session, "clip.import");
     w.window.settle();
     run_command(w.session, "clip.set", "radius 0.5");
-    EXPECT_EQ(w.clip().clip->samples()[1].r, 0.5) << "a column that means nothing else is passed over";
+    EXPECT_EQ(w.clip().clip->samples()[1].r, 0.5) << "a column that means nothing else is ignored";
     w.click("import.radius");
     w.click("import.radius.big");
     EXPECT_EQ(w.clip().clip->samples()[0].r, 2);

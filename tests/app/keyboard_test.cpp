@@ -221,7 +221,7 @@ TEST(Keyboard, EscapePutsBackWhatIsDragged) {
         EXPECT_EQ(x(), before) << "the hand has not let go yet, but the drag is over";
         w.send(MouseButton{0, false});
         EXPECT_EQ(x(), before);
-        EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "and it was no click";
+        EXPECT_EQ(w.session.workspace.selection.kind, Selection::Kind::path) << "and it was not a click";
     }
     const Camera camera = w.session.workspace.view().camera;
     w.hold("viewport", {80, 0});
@@ -322,7 +322,7 @@ TEST(Keyboard, NumbersAreTypedWithTheirUnitAndBroughtIntoRange) {
     w.session.notifications.dismiss(0);
     type("many");
     EXPECT_EQ(w.session.workspace.scene().fit.leaf, 1);
-    EXPECT_NE(all_messages(w.session).find("no number"), std::string::npos) << all_messages(w.session);
+    EXPECT_NE(all_messages(w.session).find("not a number"), std::string::npos) << all_messages(w.session);
     EXPECT_EQ(w.session.keys.focus, "") << "the mouse had begun";
 }
 
@@ -604,7 +604,7 @@ TEST(Help, BeginsWithThePresentSituation) {
     w.key("Ctrl+O");
     w.key("F1");
     ASSERT_EQ(w.session.dialogs.now, Dialog::help);
-    EXPECT_EQ(present_situation(w.session).title, "A file is asked for");
+    EXPECT_EQ(present_situation(w.session).title, "Choosing a file");
     w.key("Escape");
     EXPECT_EQ(w.session.dialogs.now, Dialog::open) << "back to where it was asked for";
     for (const Situation& situation : situations()) {

@@ -157,9 +157,9 @@ TEST(Map, CommandsChooseWhatItShows) {
     run_command(w.session, "map.place", "1.5 -2");
     EXPECT_EQ(w.b().translate, glm::dvec2(1.5, -2));
     EXPECT_NE(refusal(w.session, "map.extent", "2:1,0:1").find("dx must go from"), std::string::npos);
-    EXPECT_NE(refusal(w.session, "map.axes", "dx,dx").find("no axes of a map"), std::string::npos);
+    EXPECT_NE(refusal(w.session, "map.axes", "dx,dx").find("not two axes of a map"), std::string::npos);
     EXPECT_NE(refusal(w.session, "map.show", "gaps").find("a map cannot show"), std::string::npos);
-    EXPECT_NE(refusal(w.session, "map.range", "3:1").find("no range of values"), std::string::npos);
+    EXPECT_NE(refusal(w.session, "map.range", "3:1").find("not a range of values"), std::string::npos);
 }
 
 TEST(Map, ItsColoursAreDraggedByHandles) {

@@ -190,7 +190,7 @@ TEST(Measure, WhereAgentsAreNotWhereTheyAreNothingIsMeasured) {
     w.run("view.arrange");
     EXPECT_EQ(w.measured_lines(), 0u);
     EXPECT_NE(refusal(w.session, "view.measure"), "");
-    EXPECT_EQ(why_not(w.session, command_named("view.measure")), "in a grid agents are not where they are");
+    EXPECT_EQ(why_not(w.session, command_named("view.measure")), "the agents are laid out in a grid");
     w.run("view.arrange");
     EXPECT_GT(w.measured_lines(), 0u);
 }

@@ -178,7 +178,7 @@ TEST(StillCamera, NothingThatIsShownMovesIt) {
     ASSERT_TRUE(opened.target) << "it frames the scene once";
     const double time_height = w.session.workspace.view().time_height;
     EXPECT_GT(time_height, 0);
-    EXPECT_FALSE(w.session.workspace.history.can_undo()) << "framing is no step of its own";
+    EXPECT_FALSE(w.session.workspace.history.can_undo()) << "framing is not a step of its own";
     const auto expect_still = [&](const std::string& after) {
         EXPECT_EQ(w.session.workspace.view().camera, opened) << after;
         EXPECT_EQ(w.session.workspace.view().time_height, time_height) << after;

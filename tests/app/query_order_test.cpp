@@ -61,6 +61,18 @@ TEST(QueryOrder, HitsStandFirst) {
     EXPECT_EQ(w.session.costs.listed(), expected);
 }
 
+TEST(QueryOrder, TheListOpensAtTheQueryInView) {
+    QueryOrderWindow w;
+    w.click("queries.number");
+    w.session.settings.folded["queries"] = true;
+    run_command(w.session, "query.select", "14");
+    w.window.settle();
+    w.session.settings.folded["queries"] = false;
+    w.window.settle();
+    EXPECT_TRUE(w.window.shell().marks().all().contains("query.14"));
+    EXPECT_FALSE(w.window.shell().marks().all().contains("query.0"));
+}
+
 TEST(QueryOrder, AnEditIsAskedAgain) {
     QueryOrderWindow w;
     run_command(w.session, "go.agent", "F");

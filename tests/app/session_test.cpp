@@ -371,7 +371,7 @@ TEST(PreviousView, WhatPlaysIsOneLook) {
     run_command(e.session, "view.top");
     run_command(e.session, "time.play");
     for (int i = 0; i < 3; ++i) e.session.playback.advance(0.1);
-    EXPECT_EQ(e.session.workspace.history.look_back_title(), "moving the view") << "what stands still is no look";
+    EXPECT_EQ(e.session.workspace.history.look_back_title(), "moving the view") << "what stands still is not a look";
     e.session.playback.speed = 1;
     for (int i = 0; i < 20; ++i) e.session.playback.advance(0.01);
     e.session.edits.previous_view();
@@ -498,7 +498,7 @@ TEST(OtherPrograms, AFileThatTheyRemoveIsSavedAgainWithAWord) {
     e.session.files.tell_of_changed_files();
     e.session.files.save();
     EXPECT_EQ(all_messages(e.session), "Saved " + e.folder.scene.string() + "\n")
-        << "what this window wrote is no news";
+        << "what this window wrote is not new";
     std::filesystem::remove_all(e.folder.scene.parent_path());
     EXPECT_NE(refusal(e.session, "file.save").find("cannot be written"), std::string::npos);
 }
@@ -804,7 +804,7 @@ TEST(Views, WhatIsSavedIsTheActiveOne) {
     Session session(false);
     session.files.open({folder.scene});
     session.views.split("fine", {.leaf = 2});
-    EXPECT_FALSE(session.workspace.modified()) << "a view more is no change of the scene";
+    EXPECT_FALSE(session.workspace.modified()) << "a view more is not a change of the scene";
     session.crowds.find_conflicts();
     ASSERT_NE(session.crowds.conflicts(), nullptr);
     session.views.activate(1);

@@ -27,7 +27,7 @@ TEST_F(ShownAgentsTest, AnswersStay) {
     run_command(session, "agents.hide", "B");
     EXPECT_EQ(hidden(), AgentNames{"B"});
     EXPECT_EQ(session.queries.answer_of(0).contact.has_value(), before);
-    EXPECT_FALSE(session.workspace.modified()) << "how a scene is seen is no edit of it";
+    EXPECT_FALSE(session.workspace.modified()) << "how a scene is seen is not an edit of it";
     run_command(session, "view.previous");
     EXPECT_TRUE(hidden().empty());
 }

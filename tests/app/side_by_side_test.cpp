@@ -274,7 +274,7 @@ TEST(SideBySide, ViewsOutliveExcerptsAndEndWithTheirScene) {
     EXPECT_EQ(w.session.views.count(), 1u);
     EXPECT_TRUE(w.session.workspace.measuring.is_nothing()) << "other things stand there";
     EXPECT_EQ(why_not(w.session, *find_command("view.save_as")),
-              "an excerpt keeps no views: go back to the whole first");
+              "views cannot be saved in an excerpt: go back to the whole scene first");
     w.session.excerpts.leave();
     w.window.settle();
     EXPECT_EQ(kinds(), before);

@@ -336,7 +336,7 @@ TEST(Saving, AsksOnceMoreWhereAnotherProgramHasWrittenTheFile) {
     EXPECT_FALSE(w.session.workspace.modified());
     w.nudge();
     w.session.files.save();
-    EXPECT_FALSE(w.session.workspace.modified()) << "what was saved here is no other program's";
+    EXPECT_FALSE(w.session.workspace.modified()) << "what was saved here is this program's";
 }
 
 TEST(Saving, SaysWhichFilesOfClipsAreGone) {
@@ -524,7 +524,7 @@ TEST(HistoryList, SaysWhatWasDoneWithItsValue) {
     EXPECT_EQ(titles(w.session), (std::vector<std::string>{"moving A: x 1.00 m, y 2.00 m", "turning A: 30.0\u00B0",
                                                            "shifting A: starts at 0.50 s", "colouring A: #123456",
                                                            "renaming A to first", "changing the leaves: 7"}))
-        << "how it is seen is no edit";
+        << "how it is seen is not an edit";
     std::vector<std::string> looks;
     for (; w.session.workspace.history.can_look_back(); w.session.edits.previous_view()) {
         looks.push_back(w.session.workspace.history.look_back_title());

@@ -93,7 +93,7 @@ TEST(ViewFigures, ARangeIsOfOneFigure) {
     w.run("view.color_by", "empty");
     EXPECT_FALSE(w.view().color_range) << "of another figure it would mean something else";
     w.run("view.color_range", "auto");
-    EXPECT_NE(refusal(w.session, "view.color_range", "3:1").find("no range"), std::string::npos);
+    EXPECT_NE(refusal(w.session, "view.color_range", "3:1").find("not a range"), std::string::npos);
 }
 
 TEST(ViewFigures, TestsAreCountedWhereSomebodyAsks) {

@@ -355,7 +355,7 @@ TEST(File, OnlyRegularFilesAreRead) {
     const TempFolder folder;
     EXPECT_NE(input_error([&] { read_file(folder.path() / "none"); }).find("no such file"), std::string::npos);
     EXPECT_NE(input_error([&] { read_file(folder.path()); }).find("is a directory"), std::string::npos);
-    EXPECT_NE(input_error([] { read_file("/dev/zero"); }).find("no regular file"), std::string::npos);
+    EXPECT_NE(input_error([] { read_file("/dev/zero"); }).find("not a regular file"), std::string::npos);
 }
 
 TEST(File, OneThatIsTooLargeIsRefused) {

@@ -90,7 +90,7 @@ TEST(Json, SyntaxErrorsNameLineAndColumn) {
 
 TEST(Json, NothingHidesBehindANulByte) {
     EXPECT_EQ(json_refusal(std::string("[1]\n\0[2]", 8)),
-              "f.json: line 2: holds a NUL byte; this is no text file, or a damaged one");
+              "f.json: line 2: holds a NUL byte; this is not a text file, or a damaged one");
 }
 
 TEST(Json, ALineBreakAfterANumberIsNotItsLine) {

@@ -24,7 +24,7 @@ TEST(NumbersInText, AreFoundInSentences) {
     EXPECT_EQ(values("-0.500, +2 m"), (Values{-0.5, 2}));
     EXPECT_EQ(values("6..10 (5)"), (Values{6, 10, 5}));
     EXPECT_EQ(values("1.2e+07 ns and 3e-05"), (Values{1.2e7, 3e-5}));
-    EXPECT_EQ(values("steps 3-5"), (Values{3, 5})) << "a dash is no sign";
+    EXPECT_EQ(values("steps 3-5"), (Values{3, 5})) << "a dash is not a sign";
     EXPECT_EQ(values(""), Values{});
 }
 

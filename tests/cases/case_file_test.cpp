@@ -95,7 +95,7 @@ TEST(OrphanedGoldens, AreThoseThatNoCaseHas) {
     const std::filesystem::path& at = cases.path();
     EXPECT_EQ(orphaned_goldens(at, find_cases(at)),
               (std::vector{at / "deeper/lost.png", at / "gone.state.json", at / "lost.png"}))
-        << "what begins otherwise is no golden";
+        << "what begins otherwise is not a golden";
 }
 
 }  // namespace

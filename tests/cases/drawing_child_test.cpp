@@ -115,7 +115,7 @@ TEST_F(DrawCasesTest, WhatTakesTooLongIsEnded) {
 TEST_F(DrawCasesTest, WhatIsNoResultIsOneCasesFault) {
     draw("    a) echo nonsense ;;\n    b) cat '" + (cases.path() / "c.line").string() + "' ;;\n    d) exit 7 ;;", 1);
     EXPECT_EQ(told.size(), kCases);
-    EXPECT_EQ(message_of("a"), "failed: the process that draws said what is no result");
+    EXPECT_EQ(message_of("a"), "failed: the drawing process wrote something that is not a result");
     EXPECT_EQ(message_of("b"), message_of("a")) << "of another case";
     EXPECT_EQ(message_of("d"), "failed: the process that draws ended with status 7");
     EXPECT_EQ(sum()[CaseOutcome::passed], static_cast<int>(kCases) - 3);

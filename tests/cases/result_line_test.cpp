@@ -93,7 +93,7 @@ TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
     for (const char* other : {".script", ".sh", ".PNG", "b.png", ""}) {
         EXPECT_NE(input_error([&] {
                       read_result_line(line_with(file, other, ".png", "new"), {file});
-                  }).find("is no golden of a case"),
+                  }).find("is not a golden of a case"),
                   std::string::npos)
             << other;
     }
@@ -101,7 +101,7 @@ TEST(ResultLine, NamesNoFileButGoldensOfItsCase) {
     const std::string there = R"("golden": ".png")";
     ASSERT_NE(line.find(there), std::string::npos);
     line.replace(line.find(there), there.size(), R"("golden": "/../../b.png")");
-    EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is no golden of a case"),
+    EXPECT_NE(input_error([&] { read_result_line(line, {file}); }).find("'/../../b.png' is not a golden of a case"),
               std::string::npos);
     EXPECT_NE(input_error([&] { read_result_line(line_with(file, ".png", ".png", "new"), {file}); }).find("twice"),
               std::string::npos);

@@ -163,17 +163,17 @@ TEST_F(Certificates, GoToAPipeToo) {
 TEST_F(Certificates, ThatProveNothingAreRefusedWithStatusOne) {
     const auto tile = [](json& j) -> json& { return j["queries"][0]["tiles"][0]; };
     expect_refused(verify_changed([&](json& j) { tile(j)["gap"] = 0.31; }), 1, "query 0 is not proven: tile 0");
-    expect_refused(verify_changed([&](json& j) { tile(j)["t1"] = 1.0; }), 1, "nothing is said of samples 2 and 0");
-    expect_refused(verify_changed([](json& j) { j["queries"][0]["tiles"] = json::array(); }), 1, "nothing is said");
+    expect_refused(verify_changed([&](json& j) { tile(j)["t1"] = 1.0; }), 1, "no tile covers samples 2 and 0");
+    expect_refused(verify_changed([](json& j) { j["queries"][0]["tiles"] = json::array(); }), 1, "no tile covers");
     expect_refused(verify_changed([&](json& j) { tile(j)["direction"] = {0, -1}; }), 1, "a disk passes its line");
-    expect_refused(verify_changed([&](json& j) { tile(j)["direction"] = {0, 1.1}; }), 1, "no unit vector");
+    expect_refused(verify_changed([&](json& j) { tile(j)["direction"] = {0, 1.1}; }), 1, "not a unit vector");
     expect_refused(verify_changed([&](json& j) { tile(j)["speed"] = 9; }), 1, "a disk passes its line");
     expect_refused(verify_changed([](json& j) { j["queries"][1]["contact"]["time"] = 1.4; }), 1, "the contact begins");
     expect_refused(verify_changed([](json& j) {
                        j["queries"][1]["contact"] = nullptr;
                        j["queries"][1]["collides"] = false;
                    }),
-                   1, "nothing is said");
+                   1, "no tile covers");
     // The other proof is told all the same.
     EXPECT_NE(verify_changed([&](json& j) { tile(j)["gap"] = 1; }).out.find("1 of 2 queries proven"),
               std::string::npos);
@@ -183,8 +183,8 @@ TEST_F(Certificates, ThatAreNoneAreRefusedWithStatusTwo) {
     const std::string text = proof.dump(1);
     expect_refused(verify(text.substr(0, text.size() / 2)), 2, "line");
     expect_refused(verify(""), 2, "changed.json");
-    expect_refused(verify("[]"), 2, "is no certificate");
-    expect_refused(verify(slurp(folder.path() / "scene.json")), 2, "is no certificate");
+    expect_refused(verify("[]"), 2, "is not a certificate");
+    expect_refused(verify(slurp(folder.path() / "scene.json")), 2, "is not a certificate");
     expect_refused(verify(std::string(100'000, '[')), 2, "deep");
     const auto tile = [](json& j) -> json& { return j["queries"][0]["tiles"][0]; };
     const std::vector<std::pair<std::function<void(json&)>, std::string>> changes{

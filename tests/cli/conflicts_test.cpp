@@ -160,7 +160,7 @@ TEST(Conflicts, AgentsOfAPlanStayAtTheirGoals) {
     const struct {
         std::string what, agents, conflicts;
     } cases[] = {
-        {"a goal that was reached is passed over", "a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], " + passes_by,
+        {"a goal that was reached is ignored", "a: [{t: 0, x: 0, y: 0}, {t: 1, x: 1, y: 0}], " + passes_by,
          "vertex 2 (1,0); "},
         {"begins at the goal", "a: [{t: 0, x: 1, y: 0}], " + passes_by, "vertex 2 (1,0); "},
         {"one step, at another time", "a: [{t: 1, x: 1, y: 0}], " + passes_by, "vertex 2 (1,0); "},

@@ -127,10 +127,10 @@ TEST(MapCommand, RefusesWhatIsNoMapInOneLine) {
         refused({"--over", axes, "-o", out}, why);
     }
     for (const std::string cells : {"0x5", "5x0", "-1x5", "100000x100000", "5", "x", "5x5x5", "axb", ""})
-        refused({"--over", good, "--cells", cells, "--json"}, "are no cells");
+        refused({"--over", good, "--cells", cells, "--json"}, "is not a number of cells");
     refused({"--over", good, "--show", "gaps", "--json"}, "not one of answer, clearance, tests");
     refused({"--over", good, "--query", "7", "--json"}, "there is no query 7; 0 is the only one");
-    refused({"--over", good, "--query", "-1", "--json"}, "no whole number");
+    refused({"--over", good, "--query", "-1", "--json"}, "not a whole number");
     refused({"--over", good, "-o", std::string(folder.path() / "map.jpg")},
             "pictures are written as .png, .svg or .pdf");
     refused({"--over", good, "-o", out, "--size", "10x10"}, "10x10");

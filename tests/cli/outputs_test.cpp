@@ -277,6 +277,24 @@ TEST_F(Outputs, PicturesOfWhatDidNotPassReplaceNothingThatWasRead) {
     }
 }
 
+TEST_F(Outputs, ADashIsNoFileAndTheRefusalNamesTheOption) {
+    for (const Writer& writer : writers()) {
+        std::vector<std::string> arguments = writer.arguments;
+        arguments.emplace_back("-");
+        expect_refused(
+            run_program(arguments), 2,
+            writer.option.second + (writer.option.second == "-o" ? ",--output" : "") + ": '-' is standard output");
+    }
+}
+
+TEST_F(Outputs, AnOutputIsNotTheFileThatTheResultsGoTo) {
+    for (const std::string& name : {std::string("/dev/stdout"), path("results.json")}) {
+        const Result run = run_program({"query", path("two.json"), "--certificate", name}, path("results.json"));
+        EXPECT_EQ(run.status, 2);
+        EXPECT_NE(run.err.find(name + ": is the file that standard output goes to"), std::string::npos) << run.err;
+    }
+}
+
 TEST_F(Outputs, AReportReplacesNothingThatACaseIsDrawnFrom) {
     for (const std::string read : {"scene.json", "clip.csv"}) {
         const std::string before = slurp(path(read));
@@ -397,7 +415,7 @@ TEST_F(Outputs, APipeWithoutReaderDoesNotBlock) {
     const std::string pipe = path("pipe.png");
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     expect_refused(run_program({"diff", path("a.png"), path("b.png"), "-o", pipe}), 3, "nobody reads from it");
-    expect_refused(run_program({"diff", path("a.png"), pipe}), 2, "is no regular file");
+    expect_refused(run_program({"diff", path("a.png"), pipe}), 2, "is not a regular file");
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -304,6 +307,50 @@ TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
         EXPECT_EQ(run.status, 3) << arguments[0];
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
     }
+}
+
+/// Of a program whose standard output nobody reads any more.
+Result run_without_reader(const std::vector<std::string>& arguments) {
+    return run_program(arguments, "/dev/null", "/dev/null", [] {
+        std::array<int, 2> ends{};
+        if (::pipe(ends.data()) != 0) ::_exit(127);
+        ::dup2(ends[1], STDOUT_FILENO);
+        ::close(ends[0]);
+        ::close(ends[1]);
+    });
+}
+
+TEST(Program, AReaderThatGoesAwayEndsACommandQuietly) {
+    const std::string scene = kCrossing;
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--help"},
+          {"fit", "--help"},
+          {"info", scene},
+          {"info", scene, "--json"},
+          {"fit", scene},
+          {"fit", scene, "--csv"},
+          {"query", scene, "--trace"},
+          {"query", scene, "--json"},
+          {"query", scene, "--compare", "moving"},
+          {"conflicts", scene},
+          {"conflicts", scene, "--json"},
+          {"map", scene, "--over", "dx=-1:1,dy=-1:1", "--cells", "4x4", "--json"},
+          {"sweep", scene, "--over", "leaf=5,10", "--queries", "50"},
+          {"render", "--list-backends"}}) {
+        const Result run = run_without_reader(arguments);
+        EXPECT_EQ(run.status, 128 + SIGPIPE) << arguments[0];
+        EXPECT_EQ(run.err, "") << arguments[0];
+    }
+}
+
+TEST(Program, WithoutReaderLinesOfJsonEndQuietlyWithTheirStatus) {
+    const TempFolder folder;
+    folder.write("scene.json", R"({"clips": {"c": {"dt": 1, "samples": [[0, 0, 1]]}}, "agents": [
+        {"name": "A", "clip": "c"}, {"name": "B", "clip": "c", "translate": [3, 0]}]})");
+    folder.write("a.case.json", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["answers"]})");
+    const Result run = run_without_reader({"test", folder.path(), "--json-lines"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.err, "");
 }
 
 /// As on a machine without a display, until it goes.

@@ -1,6 +1,8 @@
 #include "run_program.h"
 
 #include <explain/avoidable.h>
+#include <explain/query_sentence.h>
+#include <scene/drawn_agent.h>
 #include <scene/fitted_scene.h>
 #include <support/bvh_text.h>
 #include <support/folders.h>
@@ -14,6 +16,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -213,8 +218,7 @@ TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
         EXPECT_EQ(found["avoidable"], marked) << tree;
         int told = 0;
         const std::string text = run_program(as_text).out;
-        for (std::size_t at = 0; (at = text.find(": overlap, avoidable: a line keeps the disks ", at)) != text.npos;
-             ++at)
+        for (std::size_t at = 0; (at = text.find(", avoidable: a line keeps the disks ", at)) != text.npos; ++at)
             ++told;
         EXPECT_EQ(told, marked) << text;
         const Scene scene = load_scene(kCrossing);
@@ -238,12 +242,32 @@ TEST(Query, SaysWhichOverlapsWereAvoidableAndWhoIsToBlame) {
     EXPECT_FALSE(brute[0].contains("avoidable")) << "the direct search has no boxes";
 }
 
+TEST(Query, TheTraceNamesATestAsItsPictureDoes) {
+    const Scene scene = load_scene(kCrossing);
+    const FittedScene fitted(scene, scene.fit);
+    ViewState view;
+    view.query = 0;
+    const std::vector<DrawnAgent> sides = drawn_agents(fitted, view);
+    const mobb::Trace trace = record(fitted, fitted.queries()[0]).trace;
+    std::istringstream text(run_program({"query", kCrossing, "--trace"}).out);
+    std::string line;
+    while (std::getline(text, line) && line != "   Trace:") {
+    }
+    for (int step = 0; step < trace.size(); ++step) {
+        ASSERT_TRUE(std::getline(text, line));
+        const std::string pictured = step_sentence(sides, trace, step);
+        const std::size_t nodes = pictured.find(": ") + 2, outcome = pictured.find(": ", nodes);
+        EXPECT_NE(line.find(pictured.substr(nodes, outcome - nodes)), std::string::npos) << line << '\n' << pictured;
+        EXPECT_TRUE(line.ends_with(pictured.substr(outcome))) << line << '\n' << pictured;
+    }
+}
+
 TEST(Query, TextIsASentence) {
     const Result run = run_program({"query", kScenes / "collision.json", "--trace", "--all-contacts"});
     EXPECT_EQ(run.status, 0);
     EXPECT_TRUE(run.out.starts_with("0: A and B collide at 2.433 s: sample 73 of A and sample 67 of B")) << run.out;
     EXPECT_NE(run.out.find("In contact: 2.43333 to "), std::string::npos);
-    EXPECT_NE(run.out.find("samples: hit"), std::string::npos);
+    EXPECT_NE(run.out.find("samples: samples 73 and 67 hit at "), std::string::npos);
     EXPECT_NE(run_program({"query", kCrossing}).out.find("A and B never collide."), std::string::npos);
 }
 
@@ -552,7 +576,7 @@ TEST(Query, BodiesNeedASkeleton) {
     const std::string file = folder.write("s.json", R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1]]}},
         "queries": [{"a": {"clip": "c"}, "b": {"clip": "c"}}]})");
     const Result refused = run_program({"query", file, "--bodies"});
-    expect_refused(refused, 2, "no query is of two bodies: the clip 'c' has no skeleton");
+    expect_refused(refused, 2, "no query is between two bodies: the clip 'c' has no skeleton");
     EXPECT_EQ(run_program({"query", file, "--bone-radius", "0.1"}).status, 2);
     EXPECT_EQ(run_program({"query", file, "--bodies", "--bone-radius", "-1"}).status, 2);
 }

@@ -230,7 +230,7 @@ TEST_F(RenderTest, BoxesAreColouredByAFigureInARange) {
     const std::string text = slurp(svg);
     EXPECT_NE(text.find("boxes: number of tests"), std::string::npos);
     EXPECT_NE(text.find("20<"), std::string::npos) << "the value at an end";
-    expect_refused(run_program(arguments(kCrossing, out, {"--color-range", "5:1"})), 2, "no range");
+    expect_refused(run_program(arguments(kCrossing, out, {"--color-range", "5:1"})), 2, "not a range");
 }
 
 /// A camera that was moved in the window and saved.

@@ -114,8 +114,8 @@ TEST(RenderView, CamerasThatAreNoneAreRefused) {
         {{"--perspective=banana"}, "--perspective: 'banana' is neither true nor false"},
         {{"--no-floor=maybe"}, "'maybe' is neither true nor false"},
         {{"--json"}, "--list-backends"},
-        {{"--view-state", ""}, "the name is empty"},
-        {{"--ids", ""}, "the name is empty"},
+        {{"--view-state", ""}, "the name of a file is empty"},
+        {{"--ids", ""}, "the name of a file is empty"},
     };
     for (const auto& [options, why] : cases) {
         std::vector<std::string> all{kCrossing, "-o", folder.path() / "o.png"};
@@ -140,7 +140,7 @@ TEST_F(RenderViewTest, StepsAreFoundByWhatTheyAre) {
     const std::string out = folder.path() / "o.png";
     expect_refused(render_small({kCrossing, "--query", "0", "--step", "avoidable:9999", "-o", out}), 2,
                    "there is no step avoidable:9999: the query has only ");
-    expect_refused(render_small({kCrossing, "--query", "0", "--step", "leaf:0", "-o", out}), 2, "is no step");
+    expect_refused(render_small({kCrossing, "--query", "0", "--step", "leaf:0", "-o", out}), 2, "is not a step");
 }
 
 TEST_F(RenderViewTest, WhatIsSwitchedOffIsNotShown) {
@@ -188,7 +188,7 @@ TEST(RenderView, NamedViewsAreBlamedWhereTheyStand) {
                    "scene.json: line 4, /debug/views/1/view/subtree");
     expect_refused(render_small({scene, "--view", "pert", "-o", out}), 2, "(did you mean 'part'?)");
     expect_refused(render_small({scene, "--view", "tpo", "-o", out}), 2, "(did you mean 'top'?)");
-    expect_refused(render_small({scene, "--slab", "0:1e300", "-o", out}), 2, "'0:1e300' is no range");
+    expect_refused(render_small({scene, "--slab", "0:1e300", "-o", out}), 2, "'0:1e300' is not a range");
 }
 
 TEST_F(RenderViewTest, AnAgentCalledNoneCanBeHidden) {

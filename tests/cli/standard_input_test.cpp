@@ -30,7 +30,7 @@ TEST(StandardInput, IsWhatEveryCommandWorksOn) {
         const Result info = run_with(input, {"info", "-", "--fps", "1"});
         EXPECT_EQ(info.status, 0) << info.err;
         EXPECT_NE(info.out.find("standard input: all of its 2 clips"), std::string::npos) << info.out;
-        EXPECT_NE(info.out.find("the column 'note' is passed over"), std::string::npos);
+        EXPECT_NE(info.out.find("the column 'note' is ignored"), std::string::npos);
         EXPECT_EQ(run_with(input, {"conflicts", "-", "--fps", "1", "--check"}).status, 1);
         for (const char* out : {"x.json", "x.csv"}) {
             const std::string file = (folder.path() / out).string();
@@ -67,12 +67,13 @@ TEST(StandardInput, IsNamedInMessages) {
              {"", "mobbscope: standard input: is empty"},
              {kInputTable,
               "mobbscope: standard input: line 1: the rows have frame numbers in place of times: give fps"},
-             {kInputTable + "b,2,z,0,\n", "mobbscope: standard input: line 6, column 3 (x): 'z' is no finite number"},
+             {kInputTable + "b,2,z,0,\n",
+              "mobbscope: standard input: line 6, column 3 (x): 'z' is not a finite number"},
              {"<html>", "mobbscope: standard input: looks like an HTML page"},
              {gzipped(kInputTable).substr(0, 30), "mobbscope: standard input: ends within what gzip packed"},
              {"{\"clips\": {\"a\": {\"source\": \"-\"}}}",
               "mobbscope: standard input: line 1, /clips/a/source: standard "
-              "input is no source"}}) {
+              "input is not a source"}}) {
         for (const char* command : {"info", "conflicts", "query"}) {
             const Result run = run_with(input, {command, "-"});
             EXPECT_EQ(run.status, 2);
@@ -127,7 +128,7 @@ TEST(TablesData, PublicAndLabTablesGiveTheirRightValues) {
     const auto clip = nlohmann::json::parse(extra.out)["clips"][0];
     EXPECT_EQ(clip["samples"], 2);
     EXPECT_NEAR(clip["path_length"].get<double>(), 0.1, 1e-12);
-    EXPECT_EQ(clip["warnings"], nlohmann::json::array({"the columns 'vx' and 'vy' are passed over"}));
+    EXPECT_EQ(clip["warnings"], nlohmann::json::array({"the columns 'vx' and 'vy' are ignored"}));
 
     EXPECT_EQ(conflicts("lab/id_frame_x_y.csv").status, 2);
     EXPECT_TRUE(conflicts("lab/id_frame_x_y.csv", {"--fps", "10"}).out.starts_with("0 conflicts among 2 agents"));

@@ -87,7 +87,7 @@ TEST_F(TestCommandTest, RefusesWhatIsNoRun) {
     expect_test_refused(test({"--contact-sheet", "sheet.jpg"}), "sheet.jpg: the contact sheet is written as .png");
     expect_test_refused(test({"--backend", "vulkan"}), "'vulkan' is not one of auto, osmesa, egl");
     expect_test_refused(test({"--html", (cases.path() / "scene.json").string()}), "is written as .html");
-    expect_test_refused(test({"--junit", ""}), "the name is empty");
+    expect_test_refused(test({"--junit", ""}), "the name of a file is empty");
     cases.folder().write("path.png", "no picture");
     expect_test_refused(test({"query/*", "--contact-sheet", (cases.path() / "path.png").string()}),
                         "path.png', which it is made from");
@@ -424,8 +424,8 @@ TEST_F(DrawnTestCommandTest, EachResultIsALineOfJson) {
 TEST_F(TestCommandTest, LinesOfJsonAreRefusedAsReportsAre) {
     expect_test_refused(run_program({"test", (cases.path() / "x").string(), "--json-lines"}), "cannot be searched");
     expect_test_refused(test({"--json-lines", "pth"}), "there is no case 'pth'");
-    expect_test_refused(test({"--json-lines", "--update", "all"}), "--json-lines: nothing else is written");
-    expect_test_refused(test({"--json-lines", "--html", "a.html"}), "--json-lines: nothing else is written");
+    expect_test_refused(test({"--json-lines", "--update", "all"}), "--json-lines writes nothing else");
+    expect_test_refused(test({"--json-lines", "--html", "a.html"}), "--json-lines writes nothing else");
     EXPECT_EQ(test({"--json-lines", "--json"}).status, 2);
 }
 
@@ -714,7 +714,7 @@ TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
     }
     report = nlohmann::json::parse(whole);
     report["cases"][1]["fresh"][0]["golden"] = ".script";
-    expect_refused(report, "/cases/1/fresh/0/golden: '.script' is no golden of a case");
+    expect_refused(report, "/cases/1/fresh/0/golden: '.script' is not a golden of a case");
 
     std::string text = slurp(page);
     text.replace(text.find("\"mobbscope_report\": 1"), 21, "\"mobbscope_report\": 9");

@@ -13,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -117,7 +118,7 @@ TEST(Certificate, WhatIsDamagedIsRefused) {
         }
         EXPECT_NE(changed([&](Certificate&, Tile& t) { t.gap += tolerance; }), "");
         EXPECT_EQ(changed([&](Certificate&, Tile& t) { t.gap -= 0.5 * std::max(t.gap, 0.0); }), "");
-        EXPECT_NE(changed([&](Certificate&, Tile& t) { t.direction *= 1.001; }), "");
+        EXPECT_NE(changed([&](Certificate&, Tile& t) { t.direction *= 1 + 4e-15; }), "") << "unit means to 1e-15";
         EXPECT_NE(changed([&](Certificate&, Tile& t) { t.t0 = t.t1; }), "");
         const double nan = std::numeric_limits<double>::quiet_NaN();
         for (double Tile::*number : {&Tile::t0, &Tile::t1, &Tile::speed, &Tile::gap})
@@ -195,6 +196,24 @@ TEST(Certificate, WalkersWhoPassEachOtherNeedALineThatMoves) {
     EXPECT_NEAR(asked.proof.tiles[0].speed, 1, 0.05);
     EXPECT_GT(asked.proof.tiles[0].gap, 0.09);
     EXPECT_EQ(asked.refused(asked.proof), "");
+}
+
+TEST(Certificate, LinesAreSpreadSoThatTheLeastGapIsWide) {
+    // One stands, the other walks three quarters of a circle around: four fixed lines are needed, and each is best
+    // where it has a fourth of the way.
+    constexpr double kAround = 1.5, kRadius = 0.5, kTurn = 300 * std::numbers::pi / 180;
+    constexpr int kSteps = 300;
+    std::vector<mobb::Disk> disks;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double angle = kTurn * i / kSteps;
+        disks.push_back({kAround * std::cos(angle), kAround * std::sin(angle), kRadius});
+    }
+    const ProvenQuery asked(two_agents(clip(kSteps, {{0, 0, kRadius}}), clip(1, disks, mobb::Motion::linear), {}, {}),
+                            {});
+    EXPECT_EQ(asked.refused(asked.proof), "");
+    ASSERT_EQ(asked.proof.tiles.size(), 4u);
+    const double best = kAround * std::cos(kTurn / 8) - 2 * kRadius;
+    EXPECT_GT(std::ranges::min(asked.proof.tiles, {}, &Tile::gap).gap, 0.85 * best);
 }
 
 TEST(Certificate, AxesOfSeparatedBoxesAreNeverAlongTime) {

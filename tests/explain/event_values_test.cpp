@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "explain/random_query.h"
@@ -27,8 +29,9 @@ struct Valued {
     Recursion recursion;
     EventValues values;
 
-    explicit Valued(mobb::test::Random& random)
-        : asked(random_query(random)),
+    explicit Valued(mobb::test::Random& random) : Valued(random_query(random)) {}
+    explicit Valued(RandomQuery query)
+        : asked(std::move(query)),
           a(asked.a()),
           b(asked.b()),
           recursion(recursion_of(asked.trace, a, b)),
@@ -132,6 +135,26 @@ TEST(EventValues, SortsByEveryFieldBothWaysAndKeepsOrderOfEqualOnes) {
             }
         }
     }
+}
+
+TEST(EventValues, SmallGapsAreToldApart) {
+    const auto gap_text = [](double gap) {
+        const auto at = [](double x) {
+            const std::vector<mobb::Disk> disks{{x, 0, 0.5}};
+            return mobb::Tree(std::make_shared<const mobb::Clip>(1.0, disks), {});
+        };
+        RandomQuery asked{at(0), at(1 + gap), {}, {}, {}};
+        mobb::TraceRecorder recorder;
+        static_cast<void>(mobb::query(asked.a(), asked.b(), recorder));
+        asked.trace = recorder.take();
+        const Valued all(std::move(asked));
+        const std::vector<int> separated = all.pass("outcome = separated");
+        return separated.empty() ? "none" : all.values.text(EventField::gap, 0, separated.front());
+    };
+    EXPECT_EQ(gap_text(0.25), "0.250");
+    EXPECT_EQ(gap_text(0.0001), "0.0001");
+    EXPECT_EQ(gap_text(0.0002), "0.0002");
+    EXPECT_EQ(gap_text(0.000123), "0.000123");
 }
 
 TEST(EventValues, RowsHaveTheValuesWithAllDigits) {

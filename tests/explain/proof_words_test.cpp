@@ -1,5 +1,7 @@
 // Proofs in words, and the traversal's own proof beside them.
+#include <base/text.h>
 #include <explain/proof_words.h>
+#include <explain/query_proof.h>
 
 #include "proven_query.h"
 
@@ -53,6 +55,13 @@ TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
     hit.tiles.clear();
     EXPECT_EQ(proof_words(hit, std::vector{ends[1]}), "In contact as soon as both are there.");
     EXPECT_EQ(proof_words({}, {}), "They share no time.");
+}
+
+TEST(ProofWords, OneBoundReadsTheSameEverywhere) {
+    const Certificate miss{std::nullopt, {{0, 1, {1, 0}, 0, 0.0716}}};
+    EXPECT_NE(proof_words(miss, {}).find("Never closer than 0.071 m"), std::string::npos);
+    EXPECT_EQ(gap_words(0.0716), "0.071 m");
+    EXPECT_EQ(proven_words(0.072, "m"), "0.072 m") << "rounding takes nothing from a number that ends there";
 }
 
 TEST(MarginWords, SayWhatMayChange) {

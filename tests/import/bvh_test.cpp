@@ -252,8 +252,9 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(with("CHANNELS 6", "CHANNELS 5"), "line 5: CHANNELS says 5, but names more; there is 'Yrotation'");
     expect(with("CHANNELS 3", "CHANNELS 4"), "line 9: CHANNELS says 4, but names only 3");
     expect(with("Zposition", "Xposition"), "line 5: 'Xposition' stands twice in CHANNELS; remove one");
-    expect(with("Zposition", "Zscale"),
-           "line 5: 'Zscale' is no channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+    expect(
+        with("Zposition", "Zscale"),
+        "line 5: 'Zscale' is not a channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
     for (const char* count : {"two", "", "0", "-2", "2.5", "10000001", "2147483647", "99999999999999999999"}) {
         expect(with("Frames: 2", "Frames: " + std::string(count)),
                "line 22: Frames needs a whole number from 1 to 10000000, but has '" + std::string(count) + "'");
@@ -261,18 +262,18 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(kWalker.substr(0, kWalker.find("0 95 30")),
            "line 22: Frames says 2, but no row follows; fetch the file again if it was cut off");
     expect(kWalker + "20 95 30\n", "line 26: the row has 3 values, but there are 12 channels; correct the row");
-    expect(kWalker + "END\n", "line 26: 'END' is no finite number; write it like 12.5");
+    expect(kWalker + "END\n", "line 26: 'END' is not a finite number; write it like 12.5");
     expect(with("Frame Time: 0.1", "Frame Time: 0"),
            "line 23: Frame Time needs seconds, over 0 and at most 1000, such as 0.033333, but has '0'");
     expect(with("Frame Time: 0.1", "Frame Time: 33333"),
            "line 23: Frame Time needs seconds, over 0 and at most 1000, such as 0.033333, but has '33333'");
     expect(with("Frame Time: 0.1\n", ""),
            "line 23: 'Frame Time: <number>' must stand here, but there is '0 95 30 0 0 0 0 0 0 0 0 0'");
-    expect(with("0 95 30", "0 nan 30"), "line 24: 'nan' is no finite number; write it like 12.5");
+    expect(with("0 95 30", "0 nan 30"), "line 24: 'nan' is not a finite number; write it like 12.5");
     expect(with("0 95 30", "0 1e300 30"), "line 24: '1e300' is beyond 1e9; the file is damaged");
     expect(with("0 95 30", "0 1e999 30"), "line 24: '1e999' is beyond 1e9; the file is damaged");
     expect(with("0 95 30", "0 9,5 30"),
-           "line 24: '9,5' is no finite number; write decimals with a point and separate numbers with blanks");
+           "line 24: '9,5' is not a finite number; write decimals with a point and separate numbers with blanks");
     expect(with("0 95 30", "0 30"), "line 24: the row has 11 values, but there are 12 channels; correct the row");
     expect(with("0 95 30", "0 0 95 30"), "line 24: the row has 13 values, but there are 12 channels; correct the row");
     expect(kWalker.substr(0, kWalker.size() - 5),

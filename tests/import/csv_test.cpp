@@ -192,7 +192,7 @@ TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
 
 TEST(Csv, MessagesNameLineColumnAndRemedy) {
     EXPECT_EQ(csv_refusal("x,y,t,r\n0,0,0,0.4\n0,abc,1,0.4\n"),
-              "f.csv: line 3, column 2 (y): 'abc' is no finite number; write it like 0.25");
+              "f.csv: line 3, column 2 (y): 'abc' is not a finite number; write it like 0.25");
     EXPECT_EQ(csv_refusal("x,y,t,r\n\n0,0,0,\n"), "f.csv: line 3, column 4 (r): the field is empty; give a number");
     EXPECT_NE(csv_refusal("x,y,t,speed\n0,0,0,1\n").find("line 1: the header names no column r"), std::string::npos);
     EXPECT_NE(csv_refusal("x,y,x,r\n").find("stands twice"), std::string::npos);
@@ -200,7 +200,7 @@ TEST(Csv, MessagesNameLineColumnAndRemedy) {
     EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,\"0.4\n").find("quote is not closed"), std::string::npos);
     EXPECT_NE(csv_refusal("t,x,y,r\n0,0,0,\"0.4\"5\n").find("comma must follow"), std::string::npos);
     EXPECT_NE(csv_refusal("id,t,x,y,r\n,0,0,0,0\n").find("name the track"), std::string::npos);
-    EXPECT_NE(csv_refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("no UTF-8 text"), std::string::npos);
+    EXPECT_NE(csv_refusal("id,t,x,y,r\ncaf\xe9,0,0,0,0\n").find("not UTF-8 text"), std::string::npos);
     EXPECT_NE(csv_refusal("t,x,y,r\r0,0,0,0\r").find("carriage returns"), std::string::npos);
 }
 

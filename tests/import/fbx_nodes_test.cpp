@@ -342,9 +342,9 @@ TEST(FbxNodes, AxesThatAreNoneAreSaid) {
     }
     const ImportedClip twice = read({{"UpAxis", 2}, {"UpAxisSign", -1}, {"FrontAxis", 2}, {"CoordAxis", 0}});
     EXPECT_EQ(twice.facts.up, "-z");
-    EXPECT_EQ(doubt(twice),
-              "GlobalSettings says UpAxis 2, FrontAxis 2 and CoordAxis 0, which are not three axes: the first was "
-              "believed");
+    EXPECT_EQ(
+        doubt(twice),
+        "GlobalSettings says UpAxis 2, FrontAxis 2 and CoordAxis 0, which are not three axes: the first was used");
     EXPECT_EQ(doubt(read({{"UpAxis", 2}, {"FrontAxis", 1}})), "") << "the third follows";
 }
 
@@ -378,7 +378,7 @@ TEST(FbxNodes, UnitsThatAreNoneAreGuessedAndSaid) {
             EXPECT_TRUE(clip.facts.guessed_from_height);
             const auto of_unit = std::ranges::find(clip.facts.warnings, "unit", &ImportWarning::option);
             ASSERT_NE(of_unit, clip.facts.warnings.end());
-            EXPECT_NE(of_unit->text.find("which is no unit"), std::string::npos) << of_unit->text;
+            EXPECT_NE(of_unit->text.find("which is not a unit"), std::string::npos) << of_unit->text;
             ImportOptions given;
             given.unit = "m";
             EXPECT_EQ(import_clips(file, given).at(0).facts.unit, 1);
@@ -393,7 +393,7 @@ TEST(FbxNodes, OrdersThatAreNoneOfThreeAxesAreSaid) {
     scene.animate(scene.layer(scene.stack("t")), hips, "Lcl Translation", {{"X", line(0, 4)}});
     const std::vector<std::string> warnings = parsed(scene).motion(0, 0)->warnings();
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(warnings[0], "RotationOrder of 'Hips' and 1 more node is no order of three axes: read as XYZ");
+    EXPECT_EQ(warnings[0], "RotationOrder of 'Hips' and 1 more node is not an order of three axes: read as XYZ");
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ TEST(GltfCharacters, ASkinThatListsAPartOfTheJointsBeginsWhereTheyHang) {
     Stage scene;
     scene.node("Scene").body("", "Scene").node("Prop", "Scene");
     expect_one(scene.skin({"Hips", "Prop", "Head", "Left"}).walks("Hips", 4).animation("walk"), "Hips", 3, 4, 0.6);
-    // A wrapper that is a joint and stands still is passed over, as in any skeleton.
+    // A wrapper that is a joint and stands still is ignored, as in any skeleton.
     Stage wrapped;
     wrapped.node("Root").body("", "Root").skin({"Root", "Hips", "Head", "Left", "Right"}).walks("Hips", 4);
     expect_one(wrapped.animation("walk"), "Hips", 4, 4, 0.6);

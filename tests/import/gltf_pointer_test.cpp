@@ -175,7 +175,7 @@ TEST(GltfPointer, ElsewhereIsNamedInAWarning) {
         const ImportedClip clip = pointed_clips(bytes.animation().glb(kPointedArm)).at(0);
         expect_pointed_walk(clip);
         EXPECT_EQ(warnings_of(clip), std::vector<std::string>{"KHR_animation_pointer leads to '" + pointer +
-                                                              "', which moves no node: passed over"});
+                                                              "', which moves no node: ignored"});
     }
 }
 
@@ -184,7 +184,7 @@ TEST(GltfPointer, OfManyElsewhereAFewAreNamed) {
     for (const std::string& pointer : kElsewhere) bytes.pointer_channel(pointer, 0, 0);
     const ImportedClip clip = pointed_clips(bytes.animation().glb(kPointedArm)).at(0);
     EXPECT_TRUE(warns(clip, "'" + kElsewhere[0] + "', '" + kElsewhere[1] + "', '" + kElsewhere[2] +
-                                "' and 5 more places, which move no node: passed over"))
+                                "' and 5 more places, which move no node: ignored"))
         << warnings_of(clip).front();
 }
 
@@ -202,7 +202,7 @@ TEST(GltfPointer, ElsewhereAloneMakesNoClip) {
     ASSERT_EQ(clips.size(), 1u);
     EXPECT_EQ(clips[0].name, "walk");
     EXPECT_TRUE(warns(clips[0], "animation 'glow' is left out: it moves no node, as KHR_animation_pointer"));
-    EXPECT_FALSE(warns(clips[0], "passed over")) << "that is about the other animation";
+    EXPECT_FALSE(warns(clips[0], "ignored")) << "that is about the other animation";
     ImportOptions named;
     named.animation = "glow";
     EXPECT_NE(pointed_refusal(bytes.glb(kPointedArm), named)

@@ -423,7 +423,7 @@ TEST(GltfRefusal, OfWhatCannotBeTextOrGlb) {
     expect_refused(changed(16, 'X'), "GLB chunk 0: the first chunk");
     expect_refused(changed(20, '!'), "JSON chunk, line 1, column 1");
     expect_refused("{\"asset\":\n{,}}", "line 2, column 2", "clip.gltf");
-    expect_refused("[]", "is no JSON object", "clip.gltf");
+    expect_refused("[]", "is not a JSON object", "clip.gltf");
     expect_refused("{\"a\":1e999}", "JSON: ", "clip.gltf");
     expect_refused(std::string(1'000'000, '['), "JSON: nests more than", "clip.gltf");
     // What comes after the announced length is none of ours; an empty chunk is as good as none.

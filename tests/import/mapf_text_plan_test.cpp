@@ -58,7 +58,7 @@ TEST(TextPlan, PickupsAndDeliveriesAreRead) {
         "agents=2\nstarts=(5,6),(1,2),\ntask=\n0:12->13,appear=0,finished=9\nsolution=\n"
         "0:(5,6)->(9,9):0,(1,2)->(1,2):-1,\n1:(6,6)->(9,9):0,(1,3)->(1,2):-1,\n";
     EXPECT_EQ(plan_in(text), kTwoSteps);
-    EXPECT_EQ(remark_on(text), "where agents are headed ('->') is passed over; ");
+    EXPECT_EQ(remark_on(text), "where agents are headed ('->') is ignored; ");
 }
 
 TEST(TextPlan, ALineAnAgentHasRowsAndColumns) {
@@ -95,8 +95,8 @@ TEST(TextPlan, BadPlansAreRefused) {
         {"0:(1,2),\n1:\n", "line 2: the step has no cell"},
         {"0:(1,2),\n1:(1,2", "line 2: cell 1: the bracket of a cell is not closed"},
         {"0:(1,2),\n1:(1),\n", "line 2: cell 1: a cell has two numbers"},
-        {"0:(1,2),\n1:(1,b),\n", "line 2: cell 1: 'b' is no finite number"},
-        {"0:(1,2),\n1:(1,nan),\n", "line 2: cell 1: 'nan' is no finite number"},
+        {"0:(1,2),\n1:(1,b),\n", "line 2: cell 1: 'b' is not a finite number"},
+        {"0:(1,2),\n1:(1,nan),\n", "line 2: cell 1: 'nan' is not a finite number"},
         {"0:(1,2),\n1:(1,1e12),\n", "line 2: cell 1: a cell is beyond"},
         {"0:(1,2),\n1:[1,2],\n", "line 2: cell 1: a cell in brackets was expected"},
         {"0:(1,2)->(1,3)->\n", "line 1: cell 1: an arrow and no task after it"},
@@ -105,7 +105,7 @@ TEST(TextPlan, BadPlansAreRefused) {
         {"0:(1,2),\nAgent 1: (1,2)->\n", "line 2: lines of agents and of steps are mixed"},
         {"Agent 0: (1,2)->\nAgent 0: (1,2)->\n", "line 2: agent 0 has a line already"},
         {"Agent 0: (1,2)->\nAgent 1:\n", "line 2: agent 1 has no cell"},
-        {"Agent 0: (1,2)->\nfound in 3 s\n", "line 2: is no line of a plan"},
+        {"Agent 0: (1,2)->\nfound in 3 s\n", "line 2: is not a line of a plan"},
         {"2\n12,13,14,\n7,7,7,\n", "line 1: cells are numbers here, as MAPF-LNS writes them"},
     };
     for (const auto& bad : cases) {

@@ -33,14 +33,14 @@ TEST(PlanWaiting, WhoIsAtTheGoalStaysThere) {
     for (const ImportedClip& clip : read) {
         EXPECT_EQ(clip.start, 0);
         EXPECT_EQ(clip.clip->dt(), 1);
-        EXPECT_EQ(clip.facts.warnings.size(), 3u) << "second, metre, radius: waiting is no gap";
+        EXPECT_EQ(clip.facts.warnings.size(), 3u) << "second, metre, radius: waiting is not a gap";
     }
 }
 
 TEST(PlanWaiting, WhoBeginsAtTheGoalNeverMoves) {
     const auto read = agents_of("a: [{t: 0, x: 5, y: 6}], " + kFiveSteps);
     EXPECT_EQ(cells_of(read[0]), "(5,6) (5,6) (5,6) (5,6) ");
-    EXPECT_EQ(read[0].facts.warnings.size(), 3u) << "one row of an agent is no lack";
+    EXPECT_EQ(read[0].facts.warnings.size(), 3u) << "one row of an agent is not a lack";
 }
 
 TEST(PlanWaiting, WhoBeginsLateStandsThereFromTheStart) {

@@ -1,4 +1,4 @@
-// Comments of texts: what they say of frame rate and unit is taken, anything else is passed over.
+// Comments of texts: what they say of frame rate and unit is taken, anything else is ignored.
 #include <import/tracks/remarks.h>
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Remarks, WhatTellsNoFrameRateIsPassedOverAndSaid) {
         const Remarks read = remarks_of(comment);
         EXPECT_FALSE(read.rate()) << comment;
         ASSERT_EQ(read.warnings().size(), 1u) << comment;
-        EXPECT_NE(read.warnings()[0].find("does not tell a frame rate and is passed over"), std::string::npos);
+        EXPECT_NE(read.warnings()[0].find("does not tell a frame rate and is ignored"), std::string::npos);
     }
     EXPECT_TRUE(remarks_of("the first frame is 25").warnings().empty());
 }

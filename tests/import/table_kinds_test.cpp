@@ -42,12 +42,12 @@ Place second(const ImportedClip& clip) {
 
 TEST(TableKinds, ColumnsThatMeanNothingArePassedOverWithOneWarning) {
     const std::pair<const char*, const char*> tables[] = {
-        {"id,t,x,y,r,vx,vy\n1,0,0,0,0.3,1,0\n1,0.1,0.1,0,0.3,1,0\n", "the columns 'vx' and 'vy' are passed over"},
-        {",id,t,x,y,r\n0,1,0,0,0,0.3\n1,1,0.1,0.1,0,0.3\n", "a column without a name is passed over"},
-        {"Unnamed: 0,id,t,x,y,r\n0,1,0,0,0,0.3\n1,1,0.1,0.1,0,0.3\n", "the column 'Unnamed: 0' is passed over"},
-        {"id,t,x,y,r,who\n1,0,0,0,0.3,\"Ann, B\"\n1,0.1,0.1,0,0.3,\n", "the column 'who' is passed over"},
-        {"speed,id,kind,t,x,y,r\nfast,1,,0,0,0,0.3\nnan,1,car,0.1,0.1,0,0.3\n", "'speed' and 'kind' are passed over"},
-        {",id,t,x,y,r,a\n0,1,0,0,0,0.3,1\n1,1,0.1,0.1,0,0.3,1\n", "'a' and a column without a name are passed over"},
+        {"id,t,x,y,r,vx,vy\n1,0,0,0,0.3,1,0\n1,0.1,0.1,0,0.3,1,0\n", "the columns 'vx' and 'vy' are ignored"},
+        {",id,t,x,y,r\n0,1,0,0,0,0.3\n1,1,0.1,0.1,0,0.3\n", "a column without a name is ignored"},
+        {"Unnamed: 0,id,t,x,y,r\n0,1,0,0,0,0.3\n1,1,0.1,0.1,0,0.3\n", "the column 'Unnamed: 0' is ignored"},
+        {"id,t,x,y,r,who\n1,0,0,0,0.3,\"Ann, B\"\n1,0.1,0.1,0,0.3,\n", "the column 'who' is ignored"},
+        {"speed,id,kind,t,x,y,r\nfast,1,,0,0,0,0.3\nnan,1,car,0.1,0.1,0,0.3\n", "'speed' and 'kind' are ignored"},
+        {",id,t,x,y,r,a\n0,1,0,0,0,0.3,1\n1,1,0.1,0.1,0,0.3,1\n", "'a' and a column without a name are ignored"},
     };
     for (const auto& [text, warning] : tables) {
         const auto read = csv_clips(text);
@@ -67,7 +67,7 @@ TEST(TableKinds, ManyColumnsAreCountedInTheWarning) {
         next += ",";
     }
     const auto read = csv_clips(header + '\n' + row + '\n' + next + '\n');
-    EXPECT_TRUE(warns(read[0], "'c7' and 92 more are passed over")) << read[0].facts.warnings[0].text;
+    EXPECT_TRUE(warns(read[0], "'c7' and 92 more are ignored")) << read[0].facts.warnings[0].text;
     EXPECT_EQ(second(read[0]).x, 2);
 }
 
@@ -233,7 +233,7 @@ TEST(TableKinds, OtherSignsMayPartFields) {
         EXPECT_EQ(second(read[0]), second(plain[0])) << text;
     }
     EXPECT_TRUE(warns(csv_clips("t;x;y;r\n0;0,5;0;1\n1;1;0;1\n")[0], "commas within numbers"));
-    EXPECT_NE(csv_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is no finite number"), std::string::npos);
+    EXPECT_NE(csv_refusal("t;x;y;r\n0;1.000,5;0;1\n").find("'1.000,5' is not a finite number"), std::string::npos);
 }
 
 TEST(TableKinds, BlanksPartNamesWhereNumbersStandBelow) {
@@ -291,7 +291,7 @@ TEST(TableColumns, TheOptionSaysOrWorksOutColumns) {
     EXPECT_NE(refused("x=east+,y=north").find("ends where a column or a number is expected"), std::string::npos);
     EXPECT_NE(refused("id=who,t=frame/0,x=east,y=north,r=1").find("line 2, column 2 (frame): t becomes"),
               std::string::npos);
-    EXPECT_NE(refused("id=who,t=who,x=east,y=north,r=1").find("'Ann' is no finite number"), std::string::npos);
+    EXPECT_NE(refused("id=who,t=who,x=east,y=north,r=1").find("'Ann' is not a finite number"), std::string::npos);
     EXPECT_NE(refused(("id=who,y=north,x=" + std::string(100, '(')).c_str()).find("too deep"), std::string::npos);
 }
 

@@ -214,8 +214,8 @@ TEST(TrajectoryText, RadiiComeFromAFileOfIdsOrClasses) {
                                                           {"id,radius\n1\n", "line 2: has no comma"},
                                                           {"id,radius\n1,2\n1,3\n", "line 3: '1' stands twice"},
                                                           {"id,radius\n*,2\n*,3\n", "line 3: '*' stands twice"},
-                                                          {"id,radius\n1,-2\n", "line 2: '-2' is no radius"},
-                                                          {"id,radius\n1,nan\n", "line 2: 'nan' is no radius"},
+                                                          {"id,radius\n1,-2\n", "line 2: '-2' is not a radius"},
+                                                          {"id,radius\n1,nan\n", "line 2: 'nan' is not a radius"},
                                                           {"id,radius\n,2\n", "line 2: has no id"}}) {
         const std::string& table = text;  // no structured binding in a lambda
         const std::string said = input_error([&] { with(table); });
@@ -294,7 +294,7 @@ TEST(TrajectoryText, RowsMayComeInAnyOrder) {
 TEST(TrajectoryText, WhatFitsNoFormatIsRefusedWithTheFormats) {
     for (const char* text : {"hello world\n", "1 2 3\n", "1,2,3,4\n", "1 2 3 4 5 6\n", "a 1 2 3\n"}) {
         const std::string message = text_refusal(text);
-        EXPECT_TRUE(message.starts_with("f.txt: line 1: is no row of a trajectory file")) << message;
+        EXPECT_TRUE(message.starts_with("f.txt: line 1: is not a row of a trajectory file")) << message;
         for (const char* format : {"TrajNet", "PeTrack", "obsmat", "SDD"})
             EXPECT_NE(message.find(format), std::string::npos) << message;
     }
@@ -307,8 +307,8 @@ TEST(TrajectoryText, BadRowsAreNamed) {
         std::string text, message;
     } cases[] = {
         {kTrajnet + "40 2 0\n", "line 5: has 3 columns but the rows before it have 4"},
-        {kTrajnet + "40 2 nan 0\n", "line 5: column 3: 'nan' is no finite number"},
-        {kTrajnet + "40 2.5 0 0\n", "line 5: column 2: '2.5' is no whole number"},
+        {kTrajnet + "40 2 nan 0\n", "line 5: column 3: 'nan' is not a finite number"},
+        {kTrajnet + "40 2.5 0 0\n", "line 5: column 2: '2.5' is not a whole number"},
         {kTrajnet + "40 2 1e12 0\n", "line 5: column 3: '1e12' is beyond 1e+09"},
         {kTrajnet + "20 1 0 0\n", "line 5: '1' is in frame 20 already in line 2"},
         {"# id frame x y\n1 2 3\n", "line 2: has 3 columns but a comment names 4"},
@@ -352,7 +352,7 @@ TEST(TrajectoryText, RemarksAreNeverRefused) {
     for (const char* remark : {"#framerate: fast\n", "#framerate: 0\n", "# framerate: unknown\n"}) {
         const auto read = clips_of_text(remark + rows);
         EXPECT_EQ(read[0].clip->dt(), 1.0 / 16) << remark;
-        EXPECT_TRUE(warns(read[0], "does not tell a frame rate and is passed over")) << remark;
+        EXPECT_TRUE(warns(read[0], "does not tell a frame rate and is ignored")) << remark;
         EXPECT_TRUE(warns(read[0], "16 a second are assumed")) << remark;
     }
     EXPECT_EQ(clips_of_text("# speed in m/s\n1 0 100 200 170\n1 1 110 200 170\n")[0].facts.unit, 0.01)

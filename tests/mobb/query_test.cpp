@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
+#include <mobb/blocks.h>
 #include <mobb/query.h>
 #include <mobb/random_motion.h>
+#include <mobb/trace.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace mobb {
@@ -270,6 +275,41 @@ TEST(Query, WalksSideBySideThatOverlapByAHairAreHits) {
         hits += expected.has_value();
     }
     EXPECT_GT(hits, 2000);
+}
+
+TEST(Query, BoxesApartByMoreThanTheSlackAreSeparated) {
+    // Side by side along x. A larger slack changes no answer, so nothing else would see it.
+    constexpr double kEpsilon = std::numeric_limits<double>::epsilon(), kRadius = 0.3, kSpeed = 1, kDt = 1.0 / 30;
+    constexpr int kCount = 24;
+    std::vector<Disk> path;
+    for (int i = 0; i < kCount; ++i) path.push_back({kSpeed * kDt * i, 0, kRadius});
+    // As RelativeFrame makes it.
+    const double reach = path.back().x + kRadius, lengths = 2 * kRadius + 2 * reach, seconds = 2 * kCount * kDt;
+    const double in_time = 256 * kEpsilon * seconds;
+    for (const Motion motion : {Motion::held, Motion::linear}) {
+        const auto clip = std::make_shared<const Clip>(kDt, path, motion);
+        const double on_floor = 256 * kEpsilon * lengths + (motion == Motion::linear ? 1e-7 * lengths : 0);
+        for (const auto& [kind, slack] : {std::pair(TreeKind::mobb, on_floor),
+                                          {TreeKind::umobb, on_floor + in_time},
+                                          {TreeKind::moving, 4 * on_floor + 2 * kSpeed * in_time},
+                                          {TreeKind::aabb, on_floor}}) {
+            const Tree tree(clip, {.tree = kind});
+            TraceRecorder recorder;
+            const PlacedTree a(tree, {}), b(tree, {.translate = {0, 2 * kRadius + 1.25 * slack}});
+            EXPECT_FALSE(query(a, b, recorder));
+            const Trace trace = recorder.take();
+            ASSERT_EQ(trace.size(), 2) << name(kind) << ", linear " << (motion == Motion::linear);
+            EXPECT_EQ(trace[1].outcome, Outcome::separated);
+        }
+    }
+    // In single precision, of which each block adds some 1e-5 m to its radius.
+    const Clip one(1, std::vector<Disk>{{0, 0, kRadius}});
+    const Blocks blocks(std::make_shared<const Clip>(one));
+    const auto meet = [&](double apart) {
+        return roots_meet(PlacedBlocks(blocks, {}), PlacedBlocks(blocks, {.translate = {apart, 0}}));
+    };
+    EXPECT_TRUE(meet(2 * kRadius));
+    EXPECT_FALSE(meet(2 * kRadius + 5e-5));
 }
 
 TEST(Query, ExtremeNumbersChangeNoAnswer) {

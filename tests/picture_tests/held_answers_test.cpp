@@ -355,7 +355,7 @@ TEST_F(HeldAnswersTest, AGoldenIsHeldToItsForm) {
     EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"]["time"] = one["tests"]["time"].get<int>() + 0.5; }),
                  "give a whole number from 0");
     EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"]["foo"] = 3; }),
-                 "'foo' is no kind of test; give time, obb2d, obb3d, moving, aabb, block or samples");
+                 "'foo' is not a kind of test; give time, obb2d, obb3d, moving, aabb, block or samples");
     EXPECT_PRED2(says, first_answer([](Json& one) { one["tests"].erase("time"); }), "the key 'time' is missing");
     for (const Held held : kNumbers)
         EXPECT_PRED2(says, message(held, [](Json& golden) { golden["note"] = 1; }), "unknown key 'note'");

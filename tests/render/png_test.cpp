@@ -184,8 +184,8 @@ TEST(Png, WhatCannotBeReadIsSaidWithPlaceAndReason) {
     refused(testing::png_file({}, {0, 1, 2, 3}), "Not enough image data");
     refused(testing::png_file({}, {9, 1, 2, 3, 4, 5, 6, 7, 8}), "bad adaptive filter value");
     refused(testing::png_file({.color = 3}, {0, 1, 0}), "Missing PLTE before IDAT");
-    refused("no picture", "is no PNG picture; give a .png file");
-    refused("", "is no PNG picture");
+    refused("no picture", "is not a PNG picture; give a .png file");
+    refused("", "is not a PNG picture");
 }
 
 // stb_image refuses this without a reason, and what it refused before lends its reason: a test of its own.

@@ -180,7 +180,7 @@ TEST(Ancestors, AreThoseOfTheSelectedNodeBeforeThoseOfThePart) {
     EXPECT_NE(std::ranges::find(root, ghosts_of(list).back().from), root.end()) << "they are B's";
     list = list_of_walks(view);
     add_selection(list, hit_walks(), view, {"B", {Kind::sample, 3}}, 1);
-    EXPECT_EQ(ghosts_of(list).size(), 24u) << "a sample is no node";
+    EXPECT_EQ(ghosts_of(list).size(), 24u) << "a sample is not a node";
     view.ancestors = false;
     list = list_of_walks(view);
     add_selection(list, hit_walks(), view, {"B", {Kind::node, node_at_place(tree(), 3, 0)}}, 1);

@@ -51,7 +51,7 @@ TEST(DebugState, IsRefusedWithItsPlace) {
     const auto refusal = [](const std::string& debug) { return input_error([&] { debugged(debug); }); };
     const std::string filter = refusal(R"({"filters": [{"name": "x", "where": "gpa < 1"}]})");
     EXPECT_NE(
-        filter.find("/debug/filters/0/where: at character 1 of 'gpa < 1': 'gpa' is no field (did you mean 'gap'?)"),
+        filter.find("/debug/filters/0/where: at character 1 of 'gpa < 1': 'gpa' is not a field (did you mean 'gap'?)"),
         std::string::npos)
         << filter;
     for (const char* debug :

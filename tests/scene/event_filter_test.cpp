@@ -1,4 +1,5 @@
 // Filters as text, of events and of nodes: every field and sign, words, errors with their place, completion.
+#include <base/text.h>
 #include <scene/event_filter.h>
 #include <scene/node_field.h>
 #include <support/folders.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -96,7 +98,7 @@ TEST(EventFilter, SaysInWordsWhatItMeans) {
     EXPECT_EQ(EventFilter("gap < 0.05 and level(b) >= 3 and outcome = disjoint_in_time").words(),
               "the gap is below 0.05 m, and the level of B's node is at least 3, and the outcome is disjoint in time");
     EXPECT_EQ(EventFilter("not (leaf(a) or leaf(b)) and node(a) != 2.1").words(),
-              "it is not so that (A's node is a leaf, or B's node is a leaf), and A's node is not 2.1");
+              "not (A's node is a leaf, or B's node is a leaf), and A's node is not 2.1");
     EXPECT_EQ(EventFilter("avoidable").words(), "the overlap was avoidable");
     EXPECT_EQ(EventFilter("(pairs > 3 or hit_below) and step = 7").words(),
               "(the number of measured pairs is above 3, or a hit was found in it or below it), and the step is 7");
@@ -104,19 +106,19 @@ TEST(EventFilter, SaysInWordsWhatItMeans) {
 
 TEST(EventFilter, PointsAtWhatIsWrong) {
     EXPECT_EQ(refusal<EventFilter>(""), "a field is missing at 0");
-    EXPECT_EQ(refusal<EventFilter>("gapp < 1"), "'gapp' is no field (did you mean 'gap'?) at 0");
+    EXPECT_EQ(refusal<EventFilter>("gapp < 1"), "'gapp' is not a field (did you mean 'gap'?) at 0");
     EXPECT_EQ(refusal<EventFilter>("gap < "), "a number is missing at 6");
     EXPECT_EQ(refusal<EventFilter>("gap 0.5"), "a comparison is missing: =, !=, <, <=, > or >= at 4");
-    EXPECT_EQ(refusal<EventFilter>("gap < 0.5 s"), "'s' is no unit of the gap: m, cm or mm at 10");
-    EXPECT_EQ(refusal<EventFilter>("gap < 5 km"), "'km' is no unit of the gap: m, cm or mm at 8");
-    EXPECT_EQ(refusal<EventFilter>("gap < 5e"), "'e' is no unit of the gap: m, cm or mm at 7");
-    EXPECT_EQ(refusal<EventFilter>("time = 2 min and step > 3"), "'min' is no unit of the time: s or ms at 9");
+    EXPECT_EQ(refusal<EventFilter>("gap < 0.5 s"), "'s' is not a unit of the gap: m, cm or mm at 10");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5 km"), "'km' is not a unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5e"), "'e' is not a unit of the gap: m, cm or mm at 7");
+    EXPECT_EQ(refusal<EventFilter>("time = 2 min and step > 3"), "'min' is not a unit of the time: s or ms at 9");
     EXPECT_EQ(refusal<EventFilter>("step < 5 m"), "the step has no unit at 9");
     EXPECT_EQ(refusal<EventFilter>("level(a) > 2 x"), "the level has no unit at 13");
     EXPECT_EQ(refusal<EventFilter>("node(a) = 2.1 m"), "the node has no unit at 14");
-    EXPECT_EQ(refusal<EventFilter>("gap < 0,5"), "write 0.5 with a point at 7");
-    EXPECT_EQ(refusal<EventFilter>("clearance > -0,25 m"), "write -0.25 with a point at 14");
-    EXPECT_EQ(refusal<EventFilter>("node(b) = 2,1"), "write 2.1 with a point at 11");
+    EXPECT_EQ(refusal<EventFilter>("gap < 0,5"), "write '0.5' with a point at 7");
+    EXPECT_EQ(refusal<EventFilter>("clearance > -0,25 m"), "write '-0.25' with a point at 14");
+    EXPECT_EQ(refusal<EventFilter>("node(b) = 2,1"), "write '2.1' with a point at 11");
     EXPECT_EQ(refusal<EventFilter>("gap < 5, step > 2"), "'and' or 'or' is missing at 7");
     EXPECT_EQ(refusal<EventFilter>("step = = 3"), "a number is missing at 7");
     EXPECT_EQ(refusal<EventFilter>("outcome === hit").substr(0, 17), "a word is missing");
@@ -130,8 +132,8 @@ TEST(EventFilter, PointsAtWhatIsWrong) {
     EXPECT_EQ(refusal<EventFilter>("gap < 1 a"), "'and' or 'or' is missing at 8") << "it is begun";
     EXPECT_EQ(refusal<EventFilter>("step = 1 adn step = 2"), "'and' or 'or' is missing at 9") << "it is meant";
     EXPECT_EQ(refusal<EventFilter>("(gap < 1"), "')' is missing at 8");
-    EXPECT_EQ(refusal<EventFilter>("gap < 1.2.3"), "'1.2.3' is no number at 6");
-    EXPECT_EQ(refusal<EventFilter>("gap < 1e999"), "'1e999' is no number at 6");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1.2.3"), "'1.2.3' is not a number at 6");
+    EXPECT_EQ(refusal<EventFilter>("gap < 1e999"), "'1e999' is not a number at 6");
     EXPECT_EQ(refusal<EventFilter>("node(a) = 2.x"), "a node is missing: its level and place (2.1) or its index at 10");
     EXPECT_EQ(refusal<EventFilter>("gap < 1 and"), "a field is missing at 11");
     EXPECT_EQ(refusal<EventFilter>("gap < 1 & pairs > 2"), "'and' or 'or' is missing at 8");
@@ -181,9 +183,9 @@ TEST(NodeFilter, TakesTheFieldsOfNodesAndNoOthers) {
         }
         EXPECT_EQ(NodeFilter::field(NodeFilter(name + " = 3").terms().front()), field.field);
     }
-    EXPECT_EQ(refusal<NodeFilter>("gap < 1"), "'gap' is no field at 0");
+    EXPECT_EQ(refusal<NodeFilter>("gap < 1"), "'gap' is not a field at 0");
     EXPECT_EQ(refusal<NodeFilter>("level(a) = 1"), "a comparison is missing: =, !=, <, <=, > or >= at 5");
-    EXPECT_EQ(refusal<EventFilter>("fill < 1"), "'fill' is no field at 0");
+    EXPECT_EQ(refusal<EventFilter>("fill < 1"), "'fill' is not a field at 0");
 }
 
 TEST(NodeFilter, ReadsPartsInPercent) {
@@ -191,11 +193,11 @@ TEST(NodeFilter, ReadsPartsInPercent) {
     EXPECT_EQ(NodeFilter("fill < 50%and leaf").terms()[0].value, 50);
     EXPECT_EQ(NodeFilter("fill < 50").words(), "the fill is below 50 %");
     EXPECT_EQ(NodeFilter("empty > 0.5 and not leaf").words(),
-              "the empty space is above 0.5 m\u00B2\u00B7s, and it is not so that it is a leaf");
-    EXPECT_EQ(refusal<NodeFilter>("fill < 5 m"), "'m' is no unit of the fill: % at 9");
+              "the empty space is above 0.5 m\u00B2\u00B7s, and not (it is a leaf)");
+    EXPECT_EQ(refusal<NodeFilter>("fill < 5 m"), "'m' is not a unit of the fill: % at 9");
     EXPECT_EQ(refusal<NodeFilter>("empty > 5 m"), "the empty is given without its unit at 10");
     EXPECT_EQ(refusal<NodeFilter>("tests > 5 %"), "the tests has no unit at 10");
-    EXPECT_EQ(refusal<EventFilter>("gap < 5 %"), "'%' is no unit of the gap: m, cm or mm at 8");
+    EXPECT_EQ(refusal<EventFilter>("gap < 5 %"), "'%' is not a unit of the gap: m, cm or mm at 8");
     EXPECT_EQ(completion_of(node_field_table(), "fill < 50 ").words, (std::vector<std::string>{"and", "or"}));
 }
 
@@ -206,6 +208,28 @@ TEST(EventFilter, PutsACaretUnderTheCharacter) {
         FAIL();
     } catch (const FilterError& error) {
         EXPECT_EQ(with_caret(text, error), text + "\n              ^");
+    }
+}
+
+TEST(EventFilter, ShowsOfALongTextWhatIsNearTheMistake) {
+    std::string text;
+    while (text.size() < 45'000) text += "gap \u2264 0.5 and " + std::string(100, ' ');
+    text += "levl(a) > 1";
+    while (text.size() < 90'000) text += " and gap \u2264 0.5" + std::string(100, ' ');
+    try {
+        const EventFilter filter(text);
+        FAIL();
+    } catch (const FilterError& error) {
+        const std::string shown = with_caret(text, error);
+        EXPECT_LT(shown.size(), 400u);
+        EXPECT_LT(std::string(error.what()).size(), 200u);
+        const std::size_t line = shown.find('\n');
+        const std::size_t caret = shown.size() - line - 2;  // blanks before it
+        std::vector<char32_t> characters = code_points(shown.substr(0, line));
+        ASSERT_LT(caret, characters.size());
+        EXPECT_EQ(characters[caret], U'l');
+        EXPECT_EQ(characters.front(), U'\u2026');
+        EXPECT_EQ(characters.back(), U'\u2026');
     }
 }
 

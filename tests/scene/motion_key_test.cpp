@@ -58,9 +58,9 @@ TEST(MotionKey, AnUnknownOneIsRefusedAtItsPlace) {
         return input_error([&] { scene_of("\n\"c\": {" + clip + "}"); });
     };
     EXPECT_EQ(complaint(R"("dt": 1, "motion": "fast", "samples": [[0,0,1]])"),
-              "s.json: line 2, /clips/c/motion: 'fast' is no motion; give held or linear");
+              "s.json: line 2, /clips/c/motion: 'fast' is not a motion; give held or linear");
     EXPECT_EQ(complaint(R"("source": "a.csv", "motion": "fast")"),
-              "s.json: line 2, /clips/c/motion: 'fast' is no motion; give held or linear");
+              "s.json: line 2, /clips/c/motion: 'fast' is not a motion; give held or linear");
     EXPECT_EQ(complaint(R"("dt": 1, "motion": 1, "samples": [[0,0,1]])"),
               "s.json: line 2, /clips/c/motion: expected a string, found a number");
     EXPECT_NE(complaint(R"("dt": 1, "motoin": "held", "samples": [[0,0,1]])").find("the nearest known key is 'motion'"),

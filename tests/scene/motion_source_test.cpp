@@ -38,8 +38,9 @@ TEST(MotionSource, MessagesNameBothFilesAndThePlaceInEach) {
     const TempFolder folder;
     const auto walk = folder.write("walk.bvh", replaced(kWalker, "0 95 30", "0 nan 30"));
     const auto file = folder.write("s.json", "{\"clips\": {\n\"c\": {\"source\": \"walk.bvh\"}}}");
-    EXPECT_EQ(input_error([&] { load_scene(file); }), file.string() + ": line 2, /clips/c/source: " + walk.string() +
-                                                          ": line 24: 'nan' is no finite number; write it like 12.5");
+    EXPECT_EQ(input_error([&] { load_scene(file); }),
+              file.string() + ": line 2, /clips/c/source: " + walk.string() +
+                  ": line 24: 'nan' is not a finite number; write it like 12.5");
 }
 
 TEST(MotionSource, AClipFileIsASceneOfItsAnimations) {

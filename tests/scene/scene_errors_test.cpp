@@ -129,15 +129,15 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("mobbscope": 2)", "/mobbscope: the file has version 2; this program reads version 1"},
         {R"("mobbscope": "1")", "expected a number"},
         {R"("$schema": 1)", "expected a string"},
-        {R"("fit": {"tree": "oak"})", "'oak' is no tree; give one of " + listed(mobb::tree_kind_names())},
-        {R"("fit": {"tree": "brute"})", "is no tree"},
+        {R"("fit": {"tree": "oak"})", "'oak' is not a tree; give one of " + listed(mobb::tree_kind_names())},
+        {R"("fit": {"tree": "brute"})", "is not a tree"},
         {R"("fit": {"tree": "production"})", "/fit/tree: `production` is called `blocks`"},
-        {R"("fit": {"tree": "productoin"})", "'productoin' is no tree"},
+        {R"("fit": {"tree": "productoin"})", "'productoin' is not a tree"},
         {R"("fit": {"leaf": 0})", "/fit/leaf: 0 is out of range"},
         {R"("fit": {"leaf": 2.5})", "whole number"},
         {R"("fit": {"leaf": 1e30})", "out of range"},
         {R"("fit": {"levels": -1})", "out of range"},
-        {R"("fit": {"axes": "mine"})", "names no axes; give one of endpoints"},
+        {R"("fit": {"axes": "mine"})", "is not a choice of axes; give one of endpoints"},
         {R"("fit": {"time_scale": 0})", "out of range"},
         {R"("queries": [{"a": "A"}])", "/queries/0: the key 'b' is missing"},
         {R"("queries": [{"a": "A", "b": "BB"}])", "there is no agent 'BB'; the nearest is 'B'"},
@@ -159,10 +159,10 @@ TEST(SceneErrors, EverythingElseIsChecked) {
         {R"("queries": [{"a": "A", "b": "B", "expect": {"collides": false, "contact": {"time": 0, "a_sample": 0,
             "b_sample": 0, "distance": 0, "radii": 1}}}])",
          "no contact without a collision"},
-        {R"("view": {"levels": "3:1"})", "/view/levels: '3:1' is no range of levels"},
+        {R"("view": {"levels": "3:1"})", "/view/levels: '3:1' is not a range of levels"},
         {R"("view": {"levels": 1001})", "levels go from 0 to 1000"},
         {R"("view": {"camera": {"target": [0, 0, 1e10], "distance": 1}})", "out of range"},
-        {R"("view": {"step": "soon"})", "is no step"},
+        {R"("view": {"step": "soon"})", "is not a step"},
         {R"("view": {"step": -1})", "out of range"},
         {R"("view": {"query": 1})", "/view/query: the scene has 1 queries"},
         {R"("view": {"color_by": "node"})", "give agent, level, volume"},
@@ -197,7 +197,7 @@ TEST(SceneErrors, AgentsAreChecked) {
     EXPECT_NE(agents(R"([{"name": "", "clip": "walk"}])").find("needs a name"), std::string::npos);
     for (const char* color : {"red", "#12345", "#GGGGGG", "#1234567", "E69F00"}) {
         const std::string list = R"([{"name": "A", "clip": "walk", "color": ")" + std::string(color) + "\"}]";
-        EXPECT_NE(agents(list).find("is no colour"), std::string::npos) << color;
+        EXPECT_NE(agents(list).find("is not a colour"), std::string::npos) << color;
     }
     EXPECT_NE(agents("{}").find("expected an array"), std::string::npos);
 }
@@ -218,9 +218,9 @@ TEST(SceneErrors, TracesAreChecked) {
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 5, "b": 0, "test": "time", "outcome": "overlap"})",
          "/trace/0/a"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "tiem", "outcome": "overlap"})",
-         "is no kind of test; give time, obb2d, "},
+         "is not a kind of test; give time, obb2d, "},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "maybe"})",
-         "is no outcome"},
+         "is not an outcome"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "time", "outcome": "hit"})",
          "cannot end as hit"},
         {R"({"step": 0, "parent": -1, "depth": 0, "a": 0, "b": 0, "test": "obb2d", "outcome": "separated", "axis": 4,
@@ -264,7 +264,7 @@ TEST(SceneErrors, AnErrorInsideASourceNamesBothFilesAndBothPlaces) {
     const auto file = folder.write("s.json", "{\"clips\": {\n  \"c\": {\n    \"source\": \"bad.csv\"}}}");
     EXPECT_EQ(input_error([&] { load_scene(file); }),
               file.string() + ": line 3, /clips/c/source: " + (folder.path() / "bad.csv").string() +
-                  ": line 3, column 2 (x): 'nan' is no finite number; write it like 0.25");
+                  ": line 3, column 2 (x): 'nan' is not a finite number; write it like 0.25");
 }
 
 TEST(SceneErrors, ATracksNumberIsItsDigits) {

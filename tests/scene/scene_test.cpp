@@ -69,10 +69,10 @@ TEST(Scene, TestsAreExpectedByTheirKind) {
         return input_error([&] { parse_plain(expecting(expect_text)); });
     };
     EXPECT_NE(refused(R"({"tests": {}})").find("no kind of test is named"), std::string::npos);
-    EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2' is no kind of test; give time, obb2d"),
+    EXPECT_NE(refused(R"({"tests": {"obb2": 1}})").find("'obb2' is not a kind of test; give time, obb2d"),
               std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"boxes": 1}})")
-                  .find("'boxes' is no kind of test; give time, obb2d, obb3d, moving, aabb, block or samples"),
+                  .find("'boxes' is not a kind of test; give time, obb2d, obb3d, moving, aabb, block or samples"),
               std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"time": -1}})").find("/expect/tests/time"), std::string::npos);
     EXPECT_NE(refused(R"({"tests": {"time": 1.5}})").find("give a whole number from 0"), std::string::npos);

@@ -45,7 +45,7 @@ bool can_move(const Workspace& workspace) {
 }
 
 std::string_view why_not_move(const Workspace& workspace) {
-    return workspace.crowd() ? "a run is not edited" : "the motion graph was cut out of these clips";
+    return workspace.crowd() ? "a run cannot be edited" : "the motion graph was cut out of these clips";
 }
 
 /// held or linear, and behind it whose.
@@ -66,7 +66,7 @@ bool can_import(const Workspace& workspace, const Dialogs& dialogs, const Import
 }
 
 std::string_view why_no_import(const Workspace& workspace) {
-    if (workspace.crowd()) return "a run is not edited";
+    if (workspace.crowd()) return "a run cannot be edited";
     return workspace.scene().graph ? "the motion graph was cut out of these clips" : "no clip comes from a file";
 }
 

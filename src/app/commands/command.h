@@ -101,7 +101,7 @@ struct CommandTraits {
     /// "File", "Edit", "View", "Tree", "Query", "Go", a screen's or "Help", and behind a slash the submenu;
     /// empty in a row: that of its part; kNoMenu: none
     std::string_view menu{};
-    std::string_view behind{};    ///< of a screen's command in another menu: the one that it follows there
+    std::string_view behind{};    ///< of a screen's command in another menu: the command after which it stands there
     std::string_view shortcut{};  ///< "Ctrl+O"; several separated by a blank; empty: none
     bool repeats = false;         ///< while its key is held
     std::string_view argument{};  ///< what it takes: "FILE", "N"; in brackets if it can do without; empty: nothing
@@ -117,7 +117,7 @@ struct CommandTraits {
     /// Of a command with choices: whether this one is what is now. Null: no choice is.
     OfParts<bool, const Session> chosen{};
     OfParts<std::string, const Session> title_end{};  ///< what its title goes on with in menus: " moving A"
-    /// Other words that people have for it, apart from those of its title: the palette finds it by them.
+    /// Synonyms beside the words of the title, by which the palette finds the command.
     std::string_view also{};
 };
 

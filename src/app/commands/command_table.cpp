@@ -96,7 +96,7 @@ std::string_view why_not(const Session& session, const Command& command) {
         return session.screen ? session.screen->words().shown : command.screen->words().not_shown;
     }
     if (session.screen) return command.enabled.why_not(session);
-    if (session.jobs.job()) return "something is under way";
+    if (session.jobs.job()) return "work is in progress";
     return session.workspace.empty() ? "nothing is open" : command.enabled.why_not(session);
 }
 

@@ -50,7 +50,7 @@ void go_to_moment(Workspace& workspace, const QueryInspector& queries, const std
     const double time = number_in(text, "the time", -mobb::kMaxTime, mobb::kMaxTime);
     const TraversalComparison& traversals = queries.comparison()->traversals;
     const ComparedTime* at = traversals.at(time);
-    if (!at) throw std::invalid_argument("nothing was decided about " + format_double(time) + " s");
+    if (!at) throw std::invalid_argument("no test decides about " + format_double(time) + " s");
     const int step = traversals.decision(*at, 0).step;
     workspace.change_view([&](ViewState& view) {
         view.time = time;
@@ -76,11 +76,10 @@ std::vector<Command> compare_commands() {
     const Condition with_tests{has_tests, why_no_tests};
     const Condition with_fits{
         [](const Workspace& workspace) { return has_tests(workspace) && compares_fits(workspace); },
-        [] { return std::string_view("it is compared with no fit"); }};
+        [] { return std::string_view("it is not compared with a fit"); }};
     const std::vector<Command> rows{
         Command("compare.with", "Compare with",
-                "Lays the query beside itself under other trees, or beside the trace of it that the scene has stored.",
-                compare_with,
+                "Compares the query with itself under other trees, or with its stored trace.", compare_with,
                 {.argument = "FIT",
                  .enabled = with_tests,
                  .choices = comparable,

@@ -41,7 +41,7 @@ void stop_following(Workspace& workspace) {
 void follow(Workspace& workspace, Views& views, Notifications& notifications, const std::string& name) {
     if (!name.empty()) return follow_agent(workspace, views, name, kAroundFollowed);
     const std::string who = current_agent(workspace);
-    if (who.empty()) return notifications.tell(MessageLevel::info, "Click somebody first to follow them");
+    if (who.empty()) return notifications.tell(MessageLevel::info, "Click an agent first to follow it");
     if (who == workspace.view().follow) return stop_following(workspace);
     follow_agent(workspace, views, who, kAroundFollowed);
 }
@@ -256,7 +256,8 @@ void open_pair(Workspace& workspace, Excerpts& excerpts, const std::string& name
     const auto path = current_path(workspace);
     const int index = index_of_name(agent_names(workspace), name, "agent");
     const PlacedAgent other = workspace.fitted().placed_agents()[static_cast<std::size_t>(index)];
-    if (other.name == path->name) throw std::invalid_argument("an agent cannot be asked against itself: name another");
+    if (other.name == path->name)
+        throw std::invalid_argument("an agent cannot be queried against itself: name another");
     excerpts.open(*path, other);
 }
 
@@ -265,13 +266,12 @@ void open_pair(Workspace& workspace, Excerpts& excerpts, const std::string& name
 std::vector<Command> crowd_commands() {
     const std::vector<Command> rows{
         Command("crowd.follow", "Follow",
-                "Lets the camera go along with the selected agent, and shows a run's last choice; once more: stops.",
-                follow,
+                "Makes the camera follow the selected agent, and shows a run's last choice; again: stops.", follow,
                 {.shortcut = "W", .argument = "[AGENT]", .checked = follows, .also = "track chase lock camera"}),
         Command("crowd.stop", "Stop following", "Leaves the camera where it is.", stop_following, {.enabled = follows}),
         candidates_command(),
         Command("crowd.window", "Seconds around the time",
-                "Shows so many seconds of a run before and after its time in space-time, 0.1 to 60.",
+                "Sets how many seconds of a run before and after its time are shown in space-time, 0.1 to 60.",
                 [](Workspace& workspace, const std::string& text) {
                     const double window = number_in(text, "the window", kLeastTimeWindow, kMostTimeWindow);
                     workspace.change_view([&](ViewState& view) { view.time_window = window; });
@@ -288,7 +288,7 @@ std::vector<Command> crowd_commands() {
                 "Makes every choice of the run again, and follows who plays the first one that comes out otherwise.",
                 check_the_run, {.enabled = can_check, .also = "verify replay remake simulate"}),
         Command("crowd.special_play", "To a forced or turned play",
-                "Follows who was forced or turned, when that was chosen: by its number from 0 in the list.",
+                "Follows the agent of a forced or turned play when it was chosen; the number in the list, from 0.",
                 to_special_play,
                 {.menu = kNoMenu,
                  .argument = "N",
@@ -297,7 +297,7 @@ std::vector<Command> crowd_commands() {
                          return workspace.crowd() && !crowds.special_plays().empty();
                      }}),
         Command("crowd.sort_plays", "Sort forced and turned plays by",
-                "Lists the forced and turned plays of a run by a column; by the same one again the other way round.",
+                "Sorts the forced and turned plays of a run by a column; the same one again reverses the order.",
                 sort_special_plays,
                 {.argument = "COLUMN",
                  .choices = [] { return std::vector<std::string>(kPlayColumns.begin(), kPlayColumns.end()); },
@@ -311,7 +311,7 @@ std::vector<Command> crowd_commands() {
                 "Points out one of the moves that the followed agent could choose, by its number from 0.", point_out,
                 {.menu = kNoMenu, .argument = "N", .enabled = &CrowdInspector::choice}),
         Command("crowd.sort_candidates", "Sort candidates by",
-                "Lists the candidates of the last choice by a column; by the same one again the other way round.",
+                "Sorts the candidates of the last choice by a column; the same one again reverses the order.",
                 sort_candidates,
                 {.argument = "COLUMN",
                  .choices = [] { return std::vector<std::string>(kColumns.begin(), kColumns.end()); },
@@ -328,37 +328,36 @@ std::vector<Command> crowd_commands() {
                      [](const CrowdInspector& crowds, const std::string& which) {
                          return which == kWhich[static_cast<std::size_t>(crowds.list.which)];
                      }}),
-        Command(
-            "crowd.open_candidate", "Open the candidate as a scene",
-            "Opens the candidate that is pointed out, and who rules it out, as a scene with the query between them.",
-            open_candidate, {.argument = "[N]", .enabled = &CrowdInspector::choice}),
+        Command("crowd.open_candidate", "Open the candidate as a scene",
+                "Opens the highlighted candidate and the agent that rules it out as a scene, with their query.",
+                open_candidate, {.argument = "[N]", .enabled = &CrowdInspector::choice}),
         Command("crowd.open_pair", "Open as a scene with",
-                "Opens what the selected agent and another walk now as a scene with the query between them.", open_pair,
+                "Opens what the selected agent and another one play now as a scene, with their query.", open_pair,
                 {.argument = "AGENT",
                  .enabled =
                      [](const Workspace& workspace) {
                          return is_crowd(workspace) && current_path(workspace).has_value();
                      }}),
         Command("conflicts.find", "Find conflicts",
-                "Looks for all pairs of people who collide, through the trees, and lists the deepest overlap first.",
+                "Finds all pairs of agents that collide, with their trees, and lists the deepest overlap first.",
                 &CrowdInspector::find_conflicts,
                 {.enabled = can_find, .also = "collision collide overlap intersect penetration clash"}),
         Command("conflicts.next", "Next conflict",
-                "Shows the next two of the list that collide, alone, just before they do.", next_conflict<1>,
-                {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
-        Command("conflicts.previous", "Previous conflict", "Shows the two of the conflict before.", next_conflict<-1>,
-                {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
+                "Shows the next conflict of the list: its two agents alone, just before they collide.",
+                next_conflict<1>, {.shortcut = "Shift+PageDown", .repeats = true, .enabled = has_next_conflict<1>}),
+        Command("conflicts.previous", "Previous conflict", "Shows the previous conflict of the list.",
+                next_conflict<-1>, {.shortcut = "Shift+PageUp", .repeats = true, .enabled = has_next_conflict<-1>}),
         Command("conflicts.go", "To a conflict",
-                "Shows the two of a conflict, by its number from 0, alone, just before they collide.", go_conflict,
-                {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
+                "Shows the two agents of a conflict alone, just before they collide; the number in the list, from 0.",
+                go_conflict, {.menu = kNoMenu, .argument = "N", .enabled = has_conflicts}),
         Command("conflicts.choice", "To the choice behind the conflict",
                 "Follows who made the conflict of a run that was gone to, at the last choice before it.",
                 to_choice_behind, {.enabled = has_choice_behind}),
         Command("conflicts.open", "Open the conflict as a scene",
-                "Opens the two of a conflict as a scene with the query between them.", open_conflict,
+                "Opens the two agents of a conflict as a scene, with their query.", open_conflict,
                 {.argument = "[N]", .enabled = has_conflicts}),
         Command("crowd.back", "Back to the whole scene",
-                "Leaves the scene of two for the scene or run that they were taken from.", &Excerpts::leave,
+                "Goes back to the scene or run that the excerpt was taken from.", &Excerpts::leave,
                 {.shortcut = "Backspace", .enabled = &Workspace::in_excerpt}),
     };
     return in_menu("Go/Crowd", rows);

@@ -204,14 +204,14 @@ void to_next_break(QueryInspector& queries, Workspace& workspace, Notifications&
     const std::vector<int>& steps = queries.break_steps();
     const auto next = std::ranges::upper_bound(steps, workspace.step());
     if (next != steps.end()) return workspace.go_to_event(*next);
-    notifications.tell(MessageLevel::info, "No breakpoint holds at a later step");
+    notifications.tell(MessageLevel::info, "No later breakpoint");
 }
 
 void to_previous_break(QueryInspector& queries, Workspace& workspace, Notifications& notifications) {
     const std::vector<int>& steps = queries.break_steps();
     const auto behind = std::ranges::lower_bound(steps, workspace.step());
     if (behind != steps.begin()) return workspace.go_to_event(*std::prev(behind));
-    notifications.tell(MessageLevel::info, "No breakpoint holds at an earlier step");
+    notifications.tell(MessageLevel::info, "No earlier breakpoint");
 }
 
 // --- bookmarks
@@ -295,8 +295,7 @@ std::string note_here(const Workspace& workspace) {
 
 template <bool forward>
 void revisit(Workspace& workspace, Notifications& notifications) {
-    if (!workspace.revisit(forward))
-        notifications.tell(MessageLevel::info, "The queries of the steps visited are asked no more");
+    if (!workspace.revisit(forward)) notifications.tell(MessageLevel::info, "The visited queries no longer exist");
 }
 
 template <bool forward>
@@ -327,8 +326,8 @@ std::vector<Command> event_commands() {
                                  return has_events(queries) && is_filtered(workspace);
                              },
                              [] { return std::string_view("all are listed"); }}}),
-        Command("events.sort", "Sort by", "Sorts the list of events by a column; once more the other way round.",
-                sort_by,
+        Command("events.sort", "Sort by",
+                "Sorts the list of events by a column; the same one again reverses the order.", sort_by,
                 {.argument = "COLUMN",
                  .enabled = with_events(),
                  .choices = [](const Session&) { return column_names(); },
@@ -376,13 +375,13 @@ std::vector<Command> event_commands() {
 std::vector<Command> breakpoint_commands() {
     const std::vector<Command> rows{
         Command("breakpoint.here", "Break at these two nodes",
-                "Adds a breakpoint that holds when the present two nodes are tested, or removes it.", break_here,
+                "Adds a breakpoint for tests of the present two nodes, or removes it.", break_here,
                 {.shortcut = "F9", .enabled = with_events(), .checked = breaks_here, .also = "breakpoint toggle stop"}),
         Command("breakpoint.next", "Run to the next breakpoint",
-                "Shows the next test at which a breakpoint holds that is on.", to_next_break,
+                "Shows the next test that stops at an enabled breakpoint.", to_next_break,
                 {.shortcut = "F4", .repeats = true, .enabled = {has_breaks, why_no_break}, .also = "continue resume"}),
         Command("breakpoint.previous", "Run back to a breakpoint",
-                "Shows the last test before at which a breakpoint holds that is on.", to_previous_break,
+                "Shows the previous test that stops at an enabled breakpoint.", to_previous_break,
                 {.shortcut = "Shift+F4", .repeats = true, .enabled = {has_breaks, why_no_break}}),
         Command("breakpoint.add", "Break when...", "Adds a breakpoint, written as a filter: outcome = hit.",
                 add_breakpoint, {.argument = "FILTER", .also = "breakpoint watch condition stop"}),
@@ -411,27 +410,27 @@ std::vector<Command> bookmark_commands() {
                 {.argument = "[NOTE]", .enabled = on_bookmark(), .present = note_here}),
         Command("bookmark.remove", "Remove a bookmark", "Removes a bookmark.", remove_bookmark,
                 {.argument = "NAME", .enabled = {has_bookmarks, why_no_bookmark}, .choices = bookmark_names}),
-        Command("step.visited_back", "Back to the step visited before",
-                "Goes back to where the last jump, or the last run of single steps, began; once more further back.",
-                revisit<false>,
-                {.shortcut = "Z",
-                 .repeats = true,
-                 .enabled = {has_visited<false>, [] { return std::string_view("no other step was visited before"); }}}),
-        Command("step.visited_forward", "Forward to the step visited next",
-                "Goes forward again to where one has gone back from.", revisit<true>,
+        Command(
+            "step.visited_back", "Back to the step visited before",
+            "Goes back to where the last jump or run of single steps began; again: further back.", revisit<false>,
+            {.shortcut = "Z",
+             .repeats = true,
+             .enabled = {has_visited<false>, [] { return std::string_view("no step was visited before this one"); }}}),
+        Command("step.visited_forward", "Forward to the step visited next", "Goes forward again, after going back.",
+                revisit<true>,
                 {.shortcut = "Shift+Z",
                  .repeats = true,
-                 .enabled = {has_visited<true>, [] { return std::string_view("one has not gone back"); }}}),
-        Command(
-            "step.copy_link", "Copy a link to this step",
-            "Copies the scene's file with query and step behind it: `mobbscope FILE#q3@412` opens it there.", copy_link,
-            {.enabled = {[](const QueryInspector& queries, const Workspace& workspace) {
-                             return has_events(queries) && workspace.file && !workspace.in_excerpt();
-                         },
-                         [](const QueryInspector& queries) {
-                             return has_events(queries) ? std::string_view("the scene has no file yet: save it first")
-                                                        : why_no_events();
-                         }}}),
+                 .enabled = {has_visited<true>, [] { return std::string_view("nothing to go forward to"); }}}),
+        Command("step.copy_link", "Copy a link to this step",
+                "Copies a link to this file, query and step: `mobbscope FILE#q3@412` opens it there.", copy_link,
+                {.enabled = {[](const QueryInspector& queries, const Workspace& workspace) {
+                                 return has_events(queries) && workspace.file && !workspace.in_excerpt();
+                             },
+                             [](const QueryInspector& queries) {
+                                 return has_events(queries)
+                                            ? std::string_view("the scene has no file yet: save it first")
+                                            : why_no_events();
+                             }}}),
     };
     return in_menu("Query/Bookmarks", rows);
 }

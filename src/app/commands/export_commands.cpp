@@ -60,7 +60,7 @@ void copy_line_of(Session& session, const PictureOrder& seen, const std::string&
     session.desktop->set_clipboard(line);
     std::string said = shown ? "Copied the command line" : "Copied: " + line;
     if (!has_file) {
-        said += ". No file holds the scene as it is: it was written to " +
+        said += ". The scene has unsaved changes, so a copy was written to " +
                 session.dialogs.exporting.temporary->file.string();
     }
     session.notifications.tell(MessageLevel::info, said);

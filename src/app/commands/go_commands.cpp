@@ -205,31 +205,31 @@ std::vector<Command> go_commands() {
         Command("go.contact", "Contact",
                 "Goes to the moment and the step at which the two of the query in view first touch.", go_contact,
                 {.enabled = {has_contact, why_no_step}}),
-        Command("go.next_panel", "Next panel", "Gives the keys to the next panel; behind the last to the viewport.",
+        Command("go.next_panel", "Next panel",
+                "Moves the keyboard focus to the next panel; after the last to the viewport.",
                 move_focus<FocusMove::next_panel>,
                 {.shortcut = "Ctrl+F6", .enabled = always, .where = Where::everywhere}),
-        Command("go.previous_panel", "Previous panel", "Gives the keys to the panel before.",
+        Command("go.previous_panel", "Previous panel", "Moves the keyboard focus to the previous panel.",
                 move_focus<FocusMove::previous_panel>,
                 {.shortcut = "Ctrl+Shift+F6", .enabled = always, .where = Where::everywhere}),
         Command("go.menu", "Menus", "Opens the menus; arrows and letters go through them.",
                 move_focus<FocusMove::menu_bar>,
                 {.shortcut = "F10 Alt", .enabled = always, .where = Where::everywhere}),
         Command("go.menu_of_this", "Menu of this",
-                "Opens the menu of what has the keys, or else of what is selected in the picture, as a right click "
-                "does.",
+                "Opens the menu of what has the keyboard focus, or else of what is selected in the picture, as a right "
+                "click does.",
                 move_focus<FocusMove::menu_of_this>,
                 {.shortcut = "Shift+F10 Menu", .enabled = always, .where = Where::everywhere}),
-        Command(
-            "go.none", "Select nothing",
-            "Puts messages away; else ends measuring; else selects nothing; else draws everybody in full. The query in "
-            "view stays.",
-            put_away,
-            {.shortcut = "Escape",
-             .enabled =
-                 [](const Workspace& workspace, const Notifications& notifications) {
-                     return workspace.selection.kind != Selection::Kind::none || notifications.has_up() ||
-                            !workspace.measuring.is_nothing() || !workspace.view().foreground.empty();
-                 }}),
+        Command("go.none", "Select nothing",
+                "Hides messages; else ends measuring; else clears the selection; else draws all agents in full. The "
+                "query in view stays.",
+                put_away,
+                {.shortcut = "Escape",
+                 .enabled =
+                     [](const Workspace& workspace, const Notifications& notifications) {
+                         return workspace.selection.kind != Selection::Kind::none || notifications.has_up() ||
+                                !workspace.measuring.is_nothing() || !workspace.view().foreground.empty();
+                     }}),
     };
     return in_menu("Go", rows);
 }

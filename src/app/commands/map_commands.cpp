@@ -41,8 +41,8 @@ void axes(MapInspector& maps, const std::string& text) {
     const auto across = map_axis_from_name(wanted.substr(0, comma));
     const auto up = comma == std::string::npos ? std::nullopt : map_axis_from_name(wanted.substr(comma + 1));
     if (!across || !up || across == up)
-        throw std::invalid_argument(in_quotes(text) + " are no axes of a map: give two of " + listed(map_axis_names()) +
-                                    ", as dx,dy");
+        throw std::invalid_argument(in_quotes(text) + " is not two axes of a map: give two of " +
+                                    listed(map_axis_names()) + ", as dx,dy");
     maps.choice.across = *across;
     maps.choice.up = *up;
     maps.choice.extent.reset();
@@ -54,7 +54,7 @@ void extent(MapInspector& maps, const std::string& text) {
     const auto across = parse_range(text.substr(0, comma));
     const auto up = comma == std::string::npos ? std::nullopt : parse_range(text.substr(comma + 1));
     if (!across || !up)
-        throw std::invalid_argument(in_quotes(text) + " is no extent: give auto, or two ranges like -5:5,-5:5");
+        throw std::invalid_argument(in_quotes(text) + " is not an extent: give auto, or two ranges like -5:5,-5:5");
     MapOrder order;
     order.across = {maps.choice.across, across->first, across->second};
     order.up = {maps.choice.up, up->first, up->second};
@@ -66,7 +66,7 @@ void range(MapInspector& maps, const std::string& text) {
     if (text.empty() || text == "auto") return maps.choice.colors.reset();
     const auto values = parse_range(text);
     if (!values || !(values->first < values->second))
-        throw std::invalid_argument(in_quotes(text) + " is no range of values: give auto, or two like 0:2.5");
+        throw std::invalid_argument(in_quotes(text) + " is not a range of values: give auto, or two like 0:2.5");
     maps.choice.colors = values;
 }
 
@@ -96,7 +96,7 @@ std::string present_place(const MapInspector& maps) {
 std::vector<Command> map_commands() {
     const std::vector<Command> rows{
         Command("map.panel", "Map of placements",
-                "Shows where B of the query in view could stand, as a map of answers; or folds it.",
+                "Shows a map of the answers for places of B of the query in view; or folds it.",
                 [](Settings& settings, const MapInspector& maps) {
                     settings.folded[std::string(kMapSection)] = maps.is_shown;
                 },
@@ -123,12 +123,10 @@ std::vector<Command> map_commands() {
              .choices = [](const Session&) { return std::vector<std::string>(kAxes.begin(), kAxes.end()); },
              .chosen = [](const MapInspector& maps, const std::string& text) { return axes_of(maps.choice) == text; }}),
         Command("map.extent", "Extent of the map",
-                "Chooses which placements of B the map has: ranges of both axes, or by itself all where the two can "
-                "meet.",
-                extent,
+                "Chooses the ranges of the map's axes; auto: all placements where the two can meet.", extent,
                 {.menu = kNoMenu, .argument = "[auto|A:B,A:B]", .enabled = with_query(), .present = present_extent}),
         Command("map.range", "Colours of the map",
-                "Chooses the values at the ends of the map's colours, or by itself the least and the largest.", range,
+                "Chooses the values at the ends of the map's colours; auto: the least and the largest.", range,
                 {.menu = kNoMenu, .argument = "[auto|A:B]", .enabled = with_query(), .present = present_range}),
         Command("map.place", "Place B in the map", "Places B of the query in view along the map's two axes.",
                 place_in_map,

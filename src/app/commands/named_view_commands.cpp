@@ -93,25 +93,23 @@ void remove_view(Workspace& workspace, const std::string& name) {
 
 std::vector<Command> named_view_commands() {
     const std::vector<Command> rows{
-        Command(
-            "view.save_as", "Save this view...",
-            "Keeps how the scene is seen now under a name, as a bookmark to come back to; it is saved with the scene.",
-            save_view,
-            {.argument = "NAME",
-             .enabled = {[](const Workspace& workspace) { return has_scene(workspace) && !workspace.in_excerpt(); },
-                         [] { return std::string_view("an excerpt keeps no views: go back to the whole first"); }},
-             .also = "bookmark camera viewpoint"}),
-        Command("view.go", "Go to view", "Sees the scene as a named view has it, with the trees that are fitted now.",
-                go_to_view,
+        Command("view.save_as", "Save this view...", "Saves the present view with the scene, under a name.", save_view,
+                {.argument = "NAME",
+                 .enabled = {[](const Workspace& workspace) { return has_scene(workspace) && !workspace.in_excerpt(); },
+                             [] {
+                                 return std::string_view(
+                                     "views cannot be saved in an excerpt: go back to the whole scene first");
+                             }},
+                 .also = "bookmark camera viewpoint"}),
+        Command("view.go", "Go to view", "Shows a named view, with the trees that are fitted now.", go_to_view,
                 {.argument = "NAME",
                  .enabled = {has_views, why_no_view},
                  .choices = view_names,
                  .chosen = is_present,
                  .also = "bookmark camera viewpoint"}),
-        Command("view.rename", "Rename this view...", "Gives the named view that one went to last another name.",
-                rename_view,
+        Command("view.rename", "Rename this view...", "Renames the named view that was shown last.", rename_view,
                 {.argument = "NAME",
-                 .enabled = {has_present, [] { return std::string_view("no named view was gone to"); }},
+                 .enabled = {has_present, [] { return std::string_view("no named view was shown"); }},
                  .present = present_name}),
         Command("view.remove", "Remove view", "Removes a named view.", remove_view,
                 {.argument = "NAME", .enabled = {has_views, why_no_view}, .choices = view_names}),

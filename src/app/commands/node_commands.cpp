@@ -50,7 +50,7 @@ bool can_count_nodes(const Workspace& workspace, const NodeInspector& nodes) {
     return has_scene(workspace) && nodes.can_count();
 }
 std::string_view why_not_counted(const Workspace& workspace) {
-    return has_queries(workspace) ? "they are counted" : "the scene asks nothing";
+    return has_queries(workspace) ? "they are counted" : "the scene has no queries";
 }
 
 template <char separator>
@@ -102,7 +102,8 @@ std::vector<Command> node_commands() {
                              },
                              [] { return std::string_view("all are listed"); }}}),
         Command("nodes.sort", "Sort nodes by",
-                "Sorts the table of nodes by a column, the worst first; once more the other way round.", sort_nodes_by,
+                "Sorts the table of nodes by a column, the worst first; the same one again reverses the order.",
+                sort_nodes_by,
                 {.argument = "COLUMN",
                  .choices = [](const Session&) { return node_column_names(); },
                  .chosen = [](const NodeInspector& nodes,

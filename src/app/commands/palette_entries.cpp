@@ -23,13 +23,13 @@ namespace mobbscope::app {
 
 namespace {
 
-// What it counts that a word of a text is the one that is looked for, begins with it, or holds it.
+// Scores: the searched word is a whole word of the text, its beginning, or a part of it.
 constexpr double kWhole = 1;
 constexpr double kBegin = 0.8;
 constexpr double kWithin = 0.3;
 constexpr std::size_t kLeastWithin = 3;  // letters
-// ... that its letters are strewn about, at most.
-constexpr double kStrewn = 0.1;
+// ... or its letters are scattered in the text: at most this.
+constexpr double kFuzzy = 0.1;
 // A title says more than the same word elsewhere.
 constexpr double kAlsoShare = 0.7;
 constexpr double kIdShare = 0.6;
@@ -43,7 +43,7 @@ constexpr std::size_t kMostQueries = 2000;
 constexpr double kLetter = 1;
 constexpr double kWordStart = 6;
 constexpr double kRun = 7;
-constexpr double kLeastPerLetter = 4;  // below, the letters are strewn about
+constexpr double kLeastPerLetter = 4;  // below, the match is fuzzy
 constexpr double kPerLength = 0.02;    // shorter texts say more of what was meant
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
@@ -55,10 +55,10 @@ struct SearchField {
     bool by_words = false;  ///< many words, in which a few letters would be found always
 };
 
-/// What letters of a word are looked for where no word begins with it.
-enum class Letters { together, strewn };
+/// How the letters of a word match where no word begins with it: together, or scattered in order.
+enum class Letters { together, fuzzy };
 
-/// What it counts that a word is found in a field; 0: it is not.
+/// The score of a word in a field; 0: it is not found.
 double found_in(std::string_view word, const SearchField& field, Letters letters) {
     if (const auto begun = word_score(word, field.text)) return *begun;
     if (field.by_words) return 0;
@@ -68,7 +68,7 @@ double found_in(std::string_view word, const SearchField& field, Letters letters
     if (within && word.size() >= kLeastWithin) return kWithin;
     if (letters == Letters::together) return 0;
     const double most = (kLetter + kRun) * static_cast<double>(word.size());
-    return kStrewn * std::max(fuzzy_score(word, field.text).value_or(0), 0.0) / most;
+    return kFuzzy * std::max(fuzzy_score(word, field.text).value_or(0), 0.0) / most;
 }
 
 /// Every word must be found in some field, in any order.
@@ -305,17 +305,17 @@ std::vector<PaletteEntry> palette_entries(const Session& session, const std::str
     Collector out(session, text, Letters::together);
     collect(out, session, text);
     if (!out.empty()) return std::move(out).sorted();
-    // Letters that are strewn about are found nearly everywhere, so words go first.
-    Collector strewn(session, text, Letters::strewn);
-    collect(strewn, session, text);
-    return std::move(strewn).sorted();
+    // Fuzzy matches are found nearly everywhere, so words go first.
+    Collector fuzzy(session, text, Letters::fuzzy);
+    collect(fuzzy, session, text);
+    return std::move(fuzzy).sorted();
 }
 
 std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text) {
     if (!command.choices) return {};
     const std::vector<std::string> all = command.choices(session);
     std::vector<std::pair<double, std::string>> matching;
-    for (const Letters letters : {Letters::together, Letters::strewn}) {
+    for (const Letters letters : {Letters::together, Letters::fuzzy}) {
         for (const std::string& choice : all) {
             const auto points = score(words_of(text), {{choice}, {title_of_choice(command, choice)}}, letters);
             if (points) matching.emplace_back(*points, choice);

@@ -22,15 +22,15 @@ struct PaletteEntry {
 
 /// The best first, what cannot be done now last. Without text every command in the order of the menus; with text also
 /// the choices of commands, agents, clips, queries, a node by its agent and place ("A 2.1"), and commands with what
-/// they take ("step 400"). Commands are found by their other words (Command::also) too. Letters that are strewn about
-/// count only where no word is found.
+/// they take ("step 400"). Commands are found by their other words (Command::also) too. Fuzzy matches (letters
+/// scattered in order) count only where no word is found.
 std::vector<PaletteEntry> palette_entries(const Session& session, const std::string& text);
 
 /// The choices of a command that fit what was typed, the best first.
 std::vector<std::string> matching_choices(const Session& session, const Command& command, const std::string& text);
 
 /// The letters of `word` must stand in `text` in their order, whatever their case; starts of words and runs count more,
-/// and a match of letters strewn about is none. Higher is better; 0 for an empty word.
+/// and scattered letters do not match. Higher is better; 0 for an empty word.
 std::optional<double> fuzzy_score(std::string_view word, std::string_view text);
 
 /// The same where `word` is the beginning of a word of `text`, or, which is higher, all of it.

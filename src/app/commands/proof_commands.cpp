@@ -15,7 +15,7 @@ bool has_lines(const QueryInspector& queries) {
     return findings && !findings->proof.lines.empty();
 }
 std::string_view why_no_line(const Workspace& workspace) {
-    return workspace.view().query ? "the answer needs no line" : "no query is shown";
+    return workspace.view().query ? "this answer has no proof lines" : "no query is shown";
 }
 
 /// The time cursor goes where the two are nearest in it, and the walls are shown.

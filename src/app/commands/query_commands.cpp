@@ -19,7 +19,7 @@ namespace mobbscope::app {
 namespace {
 
 std::string_view why_no_query(const Workspace& workspace) {
-    return workspace.crowd() ? "a run is asked for its conflicts" : "there is no query";
+    return workspace.crowd() ? "a run has conflicts, not queries" : "there is no query";
 }
 bool may_capture(const Workspace& workspace, const Jobs& jobs) { return has_queries(workspace) && !jobs.job(); }
 std::string_view why_no_capture(const Workspace& workspace, const Jobs& jobs) {
@@ -233,21 +233,20 @@ std::vector<Command> query_commands() {
                      }}),
         Command("query.worst", "Costliest query", "Shows the query with the most tests.", show_worst,
                 {.enabled = {has_queries, why_no_query}, .also = "worst slowest expensive hot"}),
-        Command("query.none", "Close the query", "Leaves the query in view for the levels of all trees.", leave,
+        Command("query.none", "Close the query", "Closes the query in view and shows the levels of all trees.", leave,
                 {.shortcut = "Q", .enabled = {in_query, why_no_step}, .also = "exit leave back"}),
         Command("query.add", "Ask against", "Asks whether the selected agent collides with another.", add_against,
                 {.argument = "AGENT",
                  .enabled = {has_selected_of_several, why_no_agent},
                  .choices = others,
                  .also = "new collide test"}),
-        Command("query.remove", "Remove the query", "Asks the selected query, or that in view, no more.", remove_edited,
+        Command("query.remove", "Remove the query", "Removes the selected query, or the one in view.", remove_edited,
                 {.enabled =
                      [](const Workspace& workspace) { return edited_query(workspace) && query_total(workspace) > 1; }}),
-        Command(
-            "query.capture", "Open as a capture",
-            "Opens the two of a query as a scene of their own, their samples inside and the answer expected; saved, "
-            "it stands alone.",
-            capture, {.argument = "[N]", .enabled = {may_capture, why_no_capture}, .also = "save repro bug"}),
+        Command("query.capture", "Open as a capture",
+                "Opens the two clips of a query as a scene of its own, with their samples and the expected answer; "
+                "saved, it needs no other file.",
+                capture, {.argument = "[N]", .enabled = {may_capture, why_no_capture}, .also = "save repro bug"}),
         Command("query.copy_command", "Copy the query as command",
                 "Shows a query and copies the command line that draws it again without a window.", copy_query_command,
                 {.argument = "[N]", .enabled = {has_queries, why_no_query}}),

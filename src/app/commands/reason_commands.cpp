@@ -33,7 +33,7 @@ void reasons_at(Workspace& workspace, const std::string& text) {
 void reasons_of_point(Workspace& workspace, const std::string& text) {
     const glm::dvec2 times = two_numbers(text, "the point");
     for (const double time : {times.x, times.y}) {
-        if (std::abs(time) > mobb::kMaxTime) throw std::invalid_argument("the point lies beyond any time");
+        if (std::abs(time) > mobb::kMaxTime) throw std::invalid_argument("the time is out of range");
     }
     workspace.look.sample.reset();
     workspace.look.point = QueryLook::Point{times.x, times.y};
@@ -166,7 +166,7 @@ std::vector<Command> reason_commands() {
                 "Restricts lists and counts to the pair under test, or that of a step, and to those below it.",
                 focus_branch, {.argument = "[N]", .enabled = in_query, .also = "isolate zoom only"}),
         Command("focus.time", "Focus on a time...",
-                "Restricts lists and counts to pairs with a part in a time, in seconds.", focus_time,
+                "Restricts lists and counts to pairs that have a part in a range of time, in seconds.", focus_time,
                 {.argument = "FROM:TO", .enabled = in_query}),
         Command("focus.none", "Focus on everything", "Lists and counts are of the whole query again.", no_focus,
                 {.enabled = {[](const Workspace& workspace) { return !workspace.look.focus.is_all(); },

@@ -61,7 +61,7 @@ Command of_named(std::string_view id, std::string_view title, std::string_view d
 
 /// Where a run's people stand is what it is about.
 bool may_be_laid_out(const Workspace& workspace) { return has_scene(workspace) && !workspace.crowd(); }
-std::string_view why_not_laid_out() { return "a run is shown where it takes place"; }
+std::string_view why_not_laid_out() { return "a run cannot be shown in a grid"; }
 
 Command arrange_command() {
     Command out = option_command(view_option("arrange"));
@@ -78,28 +78,27 @@ Command arrange_command() {
 std::vector<Command> shown_commands() {
     const std::vector<Command> rows{
         of_selected("agent.hide", "Hide", "V",
-                    "Takes the selected agent, or the agents of the selected clip, out of the picture, or brings them "
-                    "back; answers stay.",
+                    "Hides the selected agent, or the agents of the selected clip, or shows them again; answers stay.",
                     toggle_hidden, are_hidden, "invisible visibility eye"),
         of_selected("agent.solo", "Show alone", "I",
-                    "Hides all but the selected agent, or the selected clip's, and those that are pinned; once more "
-                    "shows what was in the picture before.",
+                    "Hides all but the selected agent, or the selected clip's, and those that are pinned; again: shows "
+                    "what was shown before.",
                     toggle_isolated, are_isolated, "isolate only local solo"),
         of_selected("agent.pin", "Pin", "P",
                     "Keeps the selected agent in the picture when another is shown alone, and its colour where others "
                     "dim.",
                     toggle_pinned, are_pinned, "keep lock"),
-        Command("agent.show_all", "Show all", "Brings everybody who is hidden back into the picture.", show_all,
+        Command("agent.show_all", "Show all", "Shows all hidden agents again.", show_all,
                 {.shortcut = "Shift+V",
                  .enabled = {[](const Workspace& workspace) { return !workspace.view().hidden.empty(); },
-                             [] { return std::string_view("nobody is hidden"); }},
+                             [] { return std::string_view("no agent is hidden"); }},
                  .also = "unhide reveal visible everybody"}),
         of_selected("agent.foreground", "In the foreground", "",
                     "Draws the selected agent, or the selected clip's, whole and named beside those in the foreground, "
-                    "and leaves an outline of all others; once more takes it back.",
+                    "and leaves an outline of all others; again: takes it back.",
                     toggle_foreground, are_in_foreground, "highlight spotlight ghost others"),
         Command("agent.all_in_full", "Everybody in full",
-                "Ends the foreground: draws everybody, seen from where they were seen before.", show_in_full,
+                "Ends the foreground: draws all agents, from the camera before it.", show_in_full,
                 {.enabled = [](const Workspace& workspace) { return !workspace.view().foreground.empty(); },
                  .also = "unhide reveal reset"}),
         arrange_command(),

@@ -114,7 +114,7 @@ std::vector<Command> side_by_side_commands() {
                 "UMOBB. Of several views, closes all but the active one.",
                 toggle_split, {.menu = "View", .checked = is_split, .also = "compare dual two"}),
         Command("view.other", "Go to the other view",
-                "Of several views: commands and panels are about the next one from now on.",
+                "Of several views: makes the next one active, for commands and panels.",
                 [](Views& views) { views.activate((views.active() + 1) % views.count()); },
                 {.menu = "View", .shortcut = "F6", .enabled = {is_split, why_not_split}}),
         Command("compare.paper", "Compare MOBB with UMOBB",

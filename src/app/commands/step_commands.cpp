@@ -62,7 +62,7 @@ void percent(Workspace& workspace, const std::string& text) {
 
 bool has_step_before(const QueryInspector& queries) { return queries.step_before().has_value(); }
 std::string_view why_no_step_before(const Workspace& workspace) {
-    return in_any_query(workspace) ? "no other step was looked at" : "no query is shown";
+    return in_any_query(workspace) ? "no other step was visited" : "no query is shown";
 }
 
 void to_step_before(QueryInspector& queries, Workspace& workspace) {
@@ -194,15 +194,15 @@ std::vector<Command> step_commands() {
     const std::vector<Command> rows{
         Command("step.first", "First step", "Shows the first test of the query.", first,
                 {.shortcut = "Shift+Left", .enabled = {has_queries, why_no_step}, .also = "rewind restart beginning"}),
-        Command("step.back", "Step back", "Shows the test before.", back,
+        Command("step.back", "Step back", "Shows the previous test.", back,
                 {.shortcut = "Left", .repeats = true, .enabled = {has_queries, why_no_step}, .also = "previous"}),
         Command("step.forward", "Step forward", "Shows the next test.", forward,
                 {.shortcut = "Right", .repeats = true, .enabled = {has_queries, why_no_step}, .also = "next"}),
         Command("step.last", "Last step", "Shows the last test, with the answer.", last,
                 {.shortcut = "Shift+Right", .enabled = {has_queries, why_no_step}}),
         Command("step.before", "Step looked at before",
-                "Goes back to where the last jump, or the last run of single steps, began; once more comes back, so "
-                "that one key compares two steps.",
+                "Goes back to where the last jump or run of single steps began; again: comes back, so that one key "
+                "compares two steps.",
                 to_step_before, {.shortcut = "J", .enabled = {has_step_before, why_no_step_before}}),
         Command("step.to", "Go to step...", "Shows a test by its number from 0.", to,
                 {.shortcut = "Ctrl+G",
@@ -217,27 +217,27 @@ std::vector<Command> step_commands() {
         found_row<Way::next>("step.next_hit", "Next hit", "H", kHit,
                              "Shows the test that found samples which collide."),
         found_row<Way::next>("step.next_leaf", "Next pair of leaves", "Ctrl+L", kLeaf,
-                             "Shows the last test of the next two leaves."),
+                             "Shows the last test of the next pair of leaves."),
         found_row<Way::previous>("step.previous_separated", "Previous separation", "Shift+S", kSeparated,
-                                 "Shows the last test before that found two boxes separated in space."),
+                                 "Shows the previous test that found two boxes separated in space."),
         found_row<Way::previous>("step.previous_overlap", "Previous overlap", "Shift+O", kOverlap,
-                                 "Shows the last test before that found an overlap."),
+                                 "Shows the previous test that found an overlap."),
         found_row<Way::previous>("step.previous_hit", "Previous hit", "Shift+H", kHit,
-                                 "Shows the last test before that found samples which collide."),
+                                 "Shows the previous test that found samples which collide."),
         found_row<Way::previous>("step.previous_leaf", "Previous pair of leaves", "Ctrl+Shift+L", kLeaf,
-                                 "Shows the last test of the two leaves before."),
+                                 "Shows the last test of the previous pair of leaves."),
         Command("step.next_avoidable", "Next avoidable overlap",
                 "Shows the next test that found an overlap although one line keeps the disks apart.", to_avoidable<1>,
                 {.shortcut = "U", .enabled = {has_queries, why_no_step}, .also = "waste wasted loose false positive"}),
         Command("step.previous_avoidable", "Previous avoidable overlap",
-                "Shows the last test before that found an overlap although one line keeps the disks apart.",
+                "Shows the previous test that found an overlap although one line keeps the disks apart.",
                 to_avoidable<-1>, {.shortcut = "Shift+U", .enabled = {has_queries, why_no_step}}),
         Command("step.next_depth", "Next test at a depth",
-                "Shows the next test so deep in the recursion, 0 at the roots.", to_depth<Way::next>, of_depth),
+                "Shows the next test at a depth of the recursion; the roots are at 0.", to_depth<Way::next>, of_depth),
         Command("step.previous_depth", "Previous test at a depth",
-                "Shows the last test before so deep in the recursion.", to_depth<Way::previous>, of_depth),
+                "Shows the previous test at a depth of the recursion.", to_depth<Way::previous>, of_depth),
         Command("step.next_of_node", "Next test of the selected node",
-                "Shows the next test of the selected node, and behind the last one the first.", to_next_of_node,
+                "Shows the next test of the selected node, and after the last one the first.", to_next_of_node,
                 {.enabled = {[](const Workspace& workspace) { return side_of_node(workspace).has_value(); },
                              [](const Workspace& workspace) -> std::string_view {
                                  return workspace.view().query ? "no node of the query is selected"
@@ -254,7 +254,7 @@ std::vector<Command> step_commands() {
                              },
                              why_no_step},
                  .also = "down enter descend"}),
-        Command("step.over", "Step over", "Shows the next test that is not about parts of the present two nodes.",
+        Command("step.over", "Step over", "Shows the next test that is not below the present pair.",
                 [](Workspace& workspace, QueryInspector& queries) {
                     workspace.go_to_event(*event_after_pair(workspace, queries));
                 },

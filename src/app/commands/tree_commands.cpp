@@ -99,7 +99,7 @@ void see_finding(Session& session, int clip, FitNotices::Noticed& noticed, int i
     noticed.seen = index;
     if (found.level >= 0) return run_command(session, "view.level", std::to_string(found.level));
     const auto path = player_of(session.workspace, clip);
-    if (!path) throw std::invalid_argument("nobody plays that clip now");
+    if (!path) throw std::invalid_argument("no agent plays that clip now");
     const std::string name = placed_agent_of(session.workspace.fitted(), *path)->name + ' ';
     found.node >= 0 ? run_command(session, "go.node", name + std::to_string(found.node))
                     : run_command(session, "go.sample", name + std::to_string(found.sample));
@@ -125,7 +125,7 @@ void mend_finding(Session& session, const std::string& text) {
     with_noticed(session, [given](Session& at, int, FitNotices::Noticed& noticed) {
         const std::optional<mobb::FitOptions> mend =
             finding_at(noticed, given.value_or(std::max(noticed.seen, 0))).mend;
-        if (!mend) throw std::invalid_argument("no other fit mends that: the clip itself would have to change");
+        if (!mend) throw std::invalid_argument("no other fit helps: the clip itself would have to change");
         at.edits.refit({"mending the fit: " + mend_words(*mend, noticed.tree->options()), ""},
                        [mend](mobb::FitOptions& options) { options = *mend; });
     });
@@ -176,7 +176,7 @@ std::vector<Command> tree_commands() {
                               const std::string& kind) { return name(workspace.fitted().options().tree) == kind; },
                  .also = "tight tighter loose bvh builder algorithm hierarchy obb aabb bounding volume"}),
         Command("tree.axes", "Axes",
-                "Takes the directions of boxes from first to last sample, from the principal axes, or the tightest.",
+                "Chooses the directions of boxes: from first to last sample, the principal axes, or the tightest.",
                 set_axes,
                 {.argument = "K",
                  .choices = [] { return as_strings(mobb::axes_names()); },
@@ -215,7 +215,7 @@ std::vector<Command> tree_commands() {
                               const std::string& kind) { return name(workspace.workload()) == kind; },
                  .also = "sah price expected workload"}),
         Command("node.isolate", "Show this node alone",
-                "Draws of its agent only the box of the selected node and those below it; once more shows all again.",
+                "Of the selected node's agent draws only that node's box and those below it; again: shows all.",
                 show_part,
                 {.shortcut = "Shift+I",
                  .enabled = {[](const Workspace& workspace) {

@@ -161,7 +161,7 @@ void measure(Workspace& workspace, const std::string& text) {
 bool is_measured(const Workspace& workspace) { return measured_in_view(workspace).has_value(); }
 
 std::string_view why_not_measured(const Workspace& workspace) {
-    return workspace.view().projection ? "a disk is shown alone" : "in a grid agents are not where they are";
+    return workspace.view().projection ? "a disk is shown alone" : "the agents are laid out in a grid";
 }
 
 void copy_measured(Session& session) {
@@ -334,11 +334,9 @@ std::vector<Command> direction_commands() {
             "Brings what is selected into the middle, as large as it fits; without a selection the pair under test, "
             "else everything. Following somebody, it goes along with who is selected.",
             frame_selection, {.shortcut = "F", .also = "zoom to fit focus centre center"}),
-        Command(
-            "view.frame_all", "Frame everything",
-            "Shows all that there is in the picture again, from the present direction; with a slab, all that lies in "
-            "it.",
-            frame_all, {.shortcut = "Home", .also = "home reset zoom to fit all centre center"}),
+        Command("view.frame_all", "Frame everything",
+                "Shows the whole picture again, from the present direction; with a slab, all that lies in it.",
+                frame_all, {.shortcut = "Home", .also = "home reset zoom to fit all centre center"}),
         Command("view.follow_test", "Follow the test",
                 "Lets the camera go to the pair under test whenever a step's boxes are cut off, lie below a panel, or "
                 "are small in the picture.",
@@ -478,7 +476,7 @@ std::vector<Command> level_commands() {
              .also = "leaf deepest bottom"}),
         Command(
             "view.time_height", "Height of a second",
-            "Draws a second so many metres high; auto makes the scene about as tall as wide.", set_time_height,
+            "Sets how many metres high a second is drawn; auto makes the scene about as tall as wide.", set_time_height,
             {.menu = kNoMenu,
              .argument = "M|auto",
              .present = [](const Workspace& workspace) { return view_option("time_height").text(workspace.view()); },
@@ -502,8 +500,8 @@ std::vector<Command> window_commands() {
              .checked = [](const Workspace& workspace) { return workspace.view().projection.has_value(); }}),
         theme,
         Command("bottom.show", "Below the picture",
-                "Shows below the picture the recursion of the query in view, or without one the paths over time; the "
-                "query's events; the nodes of the tree in focus; or curves of its clip.",
+                "Chooses what is below the picture: the recursion of the query in view (without one the paths over "
+                "time), its events, the nodes of the tree in focus, or curves of its clip.",
                 show_tab,
                 {.argument = "TAB",
                  .choices = [](const Session&) { return tab_names(); },
@@ -513,8 +511,7 @@ std::vector<Command> window_commands() {
                          return name == bottom_tab_names()[static_cast<std::size_t>(settings.bottom_tab)];
                      },
                  .also = "table list spreadsheet sort waste worst plot graph speed radius"}),
-        Command("window.scale", "Scale of text and panels", "Makes text and panels so many times as large, 0.5 to 4.",
-                set_scale,
+        Command("window.scale", "Scale of text and panels", "Sets the scale of text and panels, 0.5 to 4.", set_scale,
                 {.menu = kNoMenu,
                  .argument = "X",
                  .enabled = always,
@@ -530,8 +527,7 @@ std::vector<Command> window_commands() {
         Command(
             "window.smaller", "Smaller text", "Makes text and panels smaller.", smaller,
             {.shortcut = "Ctrl+-", .repeats = true, .enabled = always, .where = Where::everywhere, .also = "font ui"}),
-        Command("window.scale_reset", "Usual text size",
-                "Makes text and panels as large as the monitor's scale asks for.",
+        Command("window.scale_reset", "Usual text size", "Sets the scale of text and panels to that of the monitor.",
                 [](Settings& settings) { settings.ui_scale = 0; },
                 {.shortcut = "Ctrl+0", .enabled = always, .where = Where::everywhere, .also = "font ui"}),
     };
@@ -552,14 +548,14 @@ std::vector<Command> time_commands() {
                      },
                  .also = "time moment seek scrub goto frame"}),
         Command(
-            "time.clear", "No time cursor", "Takes the time cursor out of the picture.",
+            "time.clear", "No time cursor", "Hides the time cursor.",
             [](Playback& playback, Workspace& workspace) {
                 playback.stop();
                 workspace.change_view([](ViewState& view) { view.time.reset(); });
             },
             {.enabled =
                  [](const Workspace& workspace) { return workspace.view().time.has_value() && !workspace.crowd(); }}),
-        Command("time.play", "Play", "Lets the time cursor run, or stops it.", play,
+        Command("time.play", "Play", "Starts the time cursor, or stops it.", play,
                 {.shortcut = "Space",
                  .checked = [](const Playback& playback) { return playback.playing(); },
                  .also = "animate animation pause stop run"}),
@@ -574,7 +570,7 @@ std::vector<Command> time_commands() {
         Command("time.back", "A sample back", "Moves the time cursor back by a sample.",
                 [](Workspace& workspace, Playback& playback) { step_time(workspace, playback, -1); },
                 {.shortcut = ",", .repeats = true, .also = "previous frame"}),
-        Command("time.speed", "Speed of playing", "Plays so many seconds of the scene in a second, 0.01 to 100.",
+        Command("time.speed", "Speed of playing", "Sets how many seconds of the scene play in a second, 0.01 to 100.",
                 [](Playback& playback, const std::string& text) {
                     playback.speed = number_in(text, "the speed", 0.01, 100);
                 },

@@ -42,13 +42,13 @@ bool has_selected_of_several(const Workspace& workspace) {
 }
 
 std::string_view why_no_agent(const Workspace& workspace) {
-    if (workspace.crowd()) return "a run is not edited";
+    if (workspace.crowd()) return "a run cannot be edited";
     if (shows_bare_clips(workspace)) return "these are clips: make them agents first (Edit / Make these agents)";
     return has_selected_agent(workspace) ? "there is only one agent" : "no agent is selected";
 }
 
 std::string_view why_nothing_to_place(const Workspace& workspace) {
-    if (workspace.crowd()) return "a run is not edited";
+    if (workspace.crowd()) return "a run cannot be edited";
     return shows_bare_clips(workspace) ? "no clip is selected" : "no agent is selected";
 }
 

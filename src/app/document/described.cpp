@@ -75,10 +75,10 @@ void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent&
     out.facts = {{"clip", fitted.scene().clips[static_cast<std::size_t>(who.clip)].name},
                  {"samples", std::to_string(clip.count())},
                  {"time", formatted("%.3f..%.3f s", clip.time(0), clip.time(clip.count()))},
-                 {"starts at", formatted("%.3f, %.3f m", clip.disk(0).x, clip.disk(0).y)},
+                 {"first place", formatted("%.3f, %.3f m", clip.disk(0).x, clip.disk(0).y)},
                  {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " +
                               std::to_string(tree.tree().depth()) + " levels"}};
-    out.exact = {{"time", {clip.time(0), clip.time(clip.count())}}, {"starts at", {clip.disk(0).x, clip.disk(0).y}}};
+    out.exact = {{"time", {clip.time(0), clip.time(clip.count())}}, {"first place", {clip.disk(0).x, clip.disk(0).y}}};
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {

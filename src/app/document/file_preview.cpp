@@ -44,7 +44,7 @@ const FileSummary* FilePreview::ask(const std::filesystem::path& file, double no
             known_[file] = read;
         };
     };
-    reading_ = std::make_unique<Job>("Looking into " + file.filename().string(), work, wake);
+    reading_ = std::make_unique<Job>("Reading " + file.filename().string(), work, wake);
     if (!wait) return nullptr;
     take_in();
     const auto found = known_.find(file);

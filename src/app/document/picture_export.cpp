@@ -44,7 +44,7 @@ std::string text_of(const std::set<std::string>& without) {
 std::size_t choice_in(const std::string& text, const std::vector<std::string>& choices, const char* what) {
     const auto at = std::ranges::find(choices, text);
     if (at == choices.end()) {
-        throw std::invalid_argument(in_quotes(text) + " is no " + what + ": give " +
+        throw std::invalid_argument(in_quotes(text) + " is not a " + what + ": give " +
                                     either(std::vector<std::string_view>(choices.begin(), choices.end())));
     }
     return static_cast<std::size_t>(at - choices.begin());
@@ -68,7 +68,7 @@ std::vector<ExportOption> all_export_options() {
          .text = [](const PictureExport& of) { return of.size ? size_word(*of.size) : "viewport"; }},
         {.key = "shape",
          .title = "Picture shape",
-         .doc = "Says whether a side that is changed in the export dialog takes the other one along.",
+         .doc = "Says whether the export dialog keeps the picture's shape when a side is changed.",
          .argument = "free|kept",
          .choices = shapes,
          .parse = [shapes](const std::string& text,
@@ -93,7 +93,7 @@ std::vector<ExportOption> all_export_options() {
          .text = [](const PictureExport& of) { return std::to_string(of.samples); }},
         {.key = "background",
          .title = "Picture transparency",
-         .doc = "Says whether exported pictures are seen through where nothing is drawn.",
+         .doc = "Says whether exported pictures are transparent where nothing is drawn.",
          .argument = "opaque|transparent",
          .choices = backgrounds,
          .choice_titles = {"Opaque", "Transparent"},
@@ -115,7 +115,7 @@ std::vector<ExportOption> all_export_options() {
          .text = [](const PictureExport& of) { return of.theme ? std::string(name(*of.theme)) : "view"; }},
         {.key = "without",
          .title = "Picture without",
-         .doc = "Says what exported pictures are without, beside what the view does not show: keys of its options.",
+         .doc = "Says what exported pictures leave out, beside what the view does not show: keys of its options.",
          .argument = "none|KEY...",
          .parse = [](const std::string& text, PictureExport& to) { to.without = parse_without(text); },
          .text = [](const PictureExport& of) { return text_of(of.without); }},
@@ -137,7 +137,7 @@ std::vector<ExportOption> all_export_options() {
              [](const std::string& text, PictureExport& to) {
                  const std::optional<int> count = parse_int(text);
                  if (!count || *count < 1 || *count > kMostTurntable) {
-                     throw std::invalid_argument(in_quotes(text) + " is no number of pictures: give 1 to " +
+                     throw std::invalid_argument(in_quotes(text) + " is not a number of pictures: give 1 to " +
                                                  std::to_string(kMostTurntable));
                  }
                  to.turntable = *count;

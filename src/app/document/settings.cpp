@@ -91,7 +91,7 @@ std::string setting_text(const Json& json, const char* key) {
     return at != json.end() && at->is_string() ? at->get<std::string>() : "";
 }
 
-/// The absolute paths of a list, at most so many; what is none is passed over.
+/// The absolute paths of a list, at most so many; what is none is ignored.
 std::vector<std::filesystem::path> paths_at(const Json& json, const char* key, std::size_t most) {
     std::vector<std::filesystem::path> out;
     const auto list = json.find(key);
@@ -318,7 +318,7 @@ Settings load_settings(const std::filesystem::path& file) {
 }
 
 std::string keep_unreadable_settings(const std::filesystem::path& file) {
-    const std::string left = "; it is left as it is, and nothing is remembered for the next time";
+    const std::string left = "; it is not changed, and settings are not saved";
     const std::optional<Json> json = read_object(file);
     if (json) return is_newer(*json) ? file.string() + " is of a newer version of Mobbscope" + left : "";
     const std::filesystem::path kept = unreadable_name(file);

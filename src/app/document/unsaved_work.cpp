@@ -102,7 +102,7 @@ void read_views(const JsonPlace& head, Document& document) {
 /// The line about the work, and where the scene begins.
 std::string_view head_of(std::string_view text, const std::filesystem::path& copy) {
     const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) throw InputError(copy.string(), "is no whole copy of a scene");
+    if (end == std::string_view::npos) throw InputError(copy.string(), "is not a whole copy of a scene");
     return text.substr(0, end);
 }
 

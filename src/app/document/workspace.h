@@ -42,8 +42,8 @@ namespace mobbscope::app {
 /// Counted over all that was ever open, so that each value is met once.
 struct Counts {
     int openings = 0;  ///< of files and excerpts
-    /// Restored views: by undo and redo, by the previous and next view, by a cancelled drag, and on the way back from
-    /// an excerpt or the scene of a case. The camera does not follow the test then.
+    /// How often a view was restored: by undo and redo, by the previous and next view, by a cancelled drag, and on the
+    /// way back from an excerpt or the scene of a case. After that the camera stays.
     int restores = 0;
     int arrivals = 0;  ///< documents that were opened, and jobs that were done
 };
@@ -53,7 +53,7 @@ struct Isolation {
     std::vector<std::string> hidden, before;
 };
 
-/// From where all were seen before some came into the foreground, and who these are.
+/// The camera to return to when the foreground ends, and the agents in the foreground.
 struct Overview {
     std::vector<std::string> foreground;
     Camera camera;

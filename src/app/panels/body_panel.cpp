@@ -52,7 +52,7 @@ void QueryBodies::show(Ui& ui, const std::shared_ptr<const QueryFindings>& findi
     const std::vector<DrawnAgent>& sides = findings->sides;
     if (!sides[0].skeleton || !sides[1].skeleton || !findings->clearance.least) return;
     if (!distances) {
-        words(ui.style.quiet, "Which bones touch takes long to find in clips as these.");
+        words(ui.style.quiet, "For clips as long as these it takes long to find which bones touch.");
         if (small_button(ui, "Measure bones", "query.measure_bones")) measure(ui);
         return;
     }

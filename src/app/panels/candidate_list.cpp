@@ -180,11 +180,13 @@ void last_choice(Ui& ui, CrowdInspector& crowds) {
     words(ui.style.text, choice_sentence(ui.workspace.scene(), *followed));
     list_head(ui, crowds);
     const std::vector<ListedCandidate> all = listed_candidates(crowds, ui.workspace, choice);
-    if (all.empty()) words(ui.style.quiet, "None of them is as asked for.");
+    if (all.empty()) words(ui.style.quiet, "No candidate matches.");
     const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
-    rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
-         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)], names); });
     const int pointed_out = crowds.candidate();
+    rows(
+        ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
+        [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)], names); },
+        present_row(all, [&](const ListedCandidate& of) { return static_cast<int>(of.index) == pointed_out; }));
     const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
     ImGui::BeginDisabled(!opens);
     command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");

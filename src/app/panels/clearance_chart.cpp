@@ -189,7 +189,7 @@ void QueryPictures::clearance(Ui& ui, QueryInspector& queries, const QueryFindin
                           findings.sides[0].label.c_str(), piece->b_sample, findings.sides[1].label.c_str(),
                           step ? bones_line(findings, step->nearest).c_str() : "");
     } else {
-        ImGui::SetTooltip("%s: only one of them is there", with_unit(t, "s").c_str());
+        ImGui::SetTooltip("%s: only one of them is present", with_unit(t, "s").c_str());
     }
     if (!active) return;
     const double from = std::clamp(chart.x.value(ImGui::GetIO().MouseClickedPos[0].x), chart.time.t0, chart.time.t1);

@@ -23,7 +23,7 @@ constexpr const char* kNothing = "nothing";
 void choose_what(Ui& ui, QueryInspector& queries) {
     const auto& with = ui.workspace.compare_with;
     const std::string now = !with ? kNothing : !with->fit ? "stored trace" : std::string(info(with->fit->tree).label);
-    form_label(ui, "With", "The same query under other trees, or the trace of it that the scene has stored");
+    form_label(ui, "With", "The same query under other trees, or its stored trace");
     if (begin_dropdown(ui, "compare.with", now, "With")) {
         const auto entry = [&](const std::string& label, const std::string& mark, bool is_now) {
             const bool clicked = ImGui::Selectable(label.c_str(), is_now);
@@ -135,7 +135,7 @@ void decision_strip(Ui& ui, const std::vector<DecisionCell>& cells, ImVec2 corne
 /// What both sides decided about a moment.
 void moment_words(Ui& ui, const QueryFindings& findings, const FitComparison& other, double moment) {
     const ComparedTime* at = other.traversals.at(moment);
-    if (!at) return words(ui.style.quiet, "Nothing was to be decided about " + with_unit(moment, "s") + ".");
+    if (!at) return words(ui.style.quiet, "No test was needed about " + with_unit(moment, "s") + ".");
     words(ui.style.text, "At " + with_unit(moment, "s") + ": " + earlier_words(at->earlier, other.names));
     ui.mark_only("compare.now");
     std::vector<DrawnAgent> sides = findings.sides;

@@ -27,7 +27,7 @@ std::string widest_event_text(const TableField& field) {
         case FieldKind::flag:
             break;
     }
-    return field.unit.empty() ? "0000000" : "-00.000";
+    return field.unit.empty() ? "0000000" : "-1.23e-05";
 }
 
 const std::vector<TableColumn>& event_table_columns() {

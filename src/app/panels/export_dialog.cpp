@@ -201,7 +201,7 @@ void size_fields(Ui& ui, Dialogs& dialogs, Settings& settings, PictureSize size)
     bool keep = keeps;
     if (ImGui::Checkbox("Keep shape", &keep)) set_export(ui, "shape", keep ? "kept" : "free");
     ui.mark("export.shape");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("A side that is changed takes the other one along");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Changing one side changes the other");
     if (wanted == size) return;
     if (keeps) dialog.made = wanted;
     ui.invoke("picture.size", size_word(wanted));
@@ -305,7 +305,7 @@ void settings_fields(Ui& ui, Settings& settings, Views& views, Dialogs& dialogs,
         return ui.session.picture_maker->why_no_samples(parse_samples(count));
     });
     if (!order.film) {
-        form_label(ui, "Background", "Transparent: seen through where nothing is drawn");
+        form_label(ui, "Background", "Transparent where nothing is drawn");
         choice_buttons(ui, settings, "background");
     }
     form_label(ui, "Theme", "Of the picture alone");
@@ -427,9 +427,9 @@ void command_line(Ui& ui, Files& files, Dialogs& dialogs, const PictureOrder& or
     const auto line = render_line(ui.workspace, files, dialogs, order, target.file.string());
     const ImVec2 room = ImGui::GetContentRegionAvail();
     if (!line) {
-        words(ui.style.quiet,
-              "No file holds the scene as it is now. Copy command line writes it to a temporary file, and shows the "
-              "line here.");
+        words(
+            ui.style.quiet,
+            "The scene has unsaved changes. Copy command line writes it to a temporary file, and shows the line here.");
         ui.mark_only("export.no_line");
         return;
     }

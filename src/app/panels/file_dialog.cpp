@@ -393,7 +393,7 @@ bool listing(Ui& ui, Dialogs& dialogs, Settings& settings, const FileQuestion& q
     } else if (browser.entries().empty()) {
         words(ui.style.quiet, question.writes()            ? "No such file is here yet."
                               : dialogs.input.text.empty() ? "There is nothing here that can be opened."
-                                                           : "No name here holds what is typed.");
+                                                           : "No name here contains this text.");
     }
     std::optional<std::size_t> clicked;
     ImGuiListClipper clipper;

@@ -227,7 +227,7 @@ void help_sheet(Ui& ui) {
     const HelpColumns columns = help_columns(ui, lines);
     ImGui::BeginChild(searched ? "found" : "lines", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)});
     if (events.changed) ImGui::SetScrollY(0);
-    if (lines.empty()) ImGui::TextDisabled("Nothing is called so.");
+    if (lines.empty()) ImGui::TextDisabled("No match.");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), ui.px(1)});
     int taken = -1;
     for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -113,7 +113,7 @@ void offered_choices(Ui& ui, Imports& imports, const ImportField& field) {
         set_option(ui, field, *taken);
         ImGui::CloseCurrentPopup();
     }
-    if (found.empty()) ImGui::TextDisabled("Nothing is called so.");
+    if (found.empty()) ImGui::TextDisabled("No match.");
     if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
 }
 
@@ -175,7 +175,7 @@ void field_remarks(Ui& ui, Imports& imports, const ImportField& field, float lef
         const std::string taken = field.offer->taken.empty() ? "" : field.offer->taken + ", ";
         // Of what is automatic the value stands in the field.
         line(field.offer->required ? ui.style.warning : ui.style.quiet,
-             field.given() ? "by itself: " + taken + field.offer->why : field.offer->why);
+             field.given() ? "automatic: " + taken + field.offer->why : field.offer->why);
     }
     for (const ImportWarning& warning : field.clip.facts.warnings) {
         // An assumption stands there already, as the reason.

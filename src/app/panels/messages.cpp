@@ -108,7 +108,7 @@ Wish buttons(Ui& ui, const Message& message, const std::string& mark) {
         ui.session.desktop->set_clipboard(message.text);
     }
     ImGui::SameLine();
-    return small_button(ui, "x", mark + ".dismiss", "Take it off the list") ? Wish::dismiss : Wish::nothing;
+    return small_button(ui, "x", mark + ".dismiss", "Remove it from the list") ? Wish::dismiss : Wish::nothing;
 }
 
 /// The first of several lines, and an ellipsis for the others.
@@ -291,7 +291,7 @@ void message_list(Ui& ui, Dialogs& dialogs, Notifications& notifications) {
     ImGui::Dummy({0, ui.px(2)});
     const std::vector<Message>& all = notifications.all();
     const int count = static_cast<int>(all.size());
-    if (all.empty()) ImGui::TextDisabled("Nothing was said yet.");
+    if (all.empty()) ImGui::TextDisabled("No messages yet.");
     const bool moved = move_picked(input.picked, count);
     std::optional<std::size_t> gone;
     // The latest first.
@@ -327,7 +327,7 @@ void message_list(Ui& ui, Dialogs& dialogs, Notifications& notifications) {
         if (marked_button(ui, "Clear", "messages.clear")) ui.invoke("help.clear_messages");
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
-        ImGui::TextDisabled("Up and Down choose, Ctrl+C copies, Delete takes it off the list");
+        ImGui::TextDisabled("Up and Down choose, Ctrl+C copies, Delete removes it");
     }
     end_dialog();
     if (gone) ui.later([&notifications, which = *gone] { notifications.dismiss(which); });

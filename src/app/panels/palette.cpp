@@ -94,7 +94,7 @@ void all(Ui& ui, Dialogs& dialogs) {
     ui.mark("palette.input");
     ImGui::Dummy({0, ui.px(2)});
     const std::vector<PaletteEntry> entries = palette_entries(ui.session, input.text);
-    if (entries.empty()) ImGui::TextDisabled("Nothing is called so.");
+    if (entries.empty()) ImGui::TextDisabled("No match.");
     const auto draw = [&](int i, bool picked) {
         const PaletteEntry& entry = entries[static_cast<std::size_t>(i)];
         const std::string detail = entry.why_not.empty() ? entry.detail : entry.why_not;

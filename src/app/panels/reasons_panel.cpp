@@ -60,16 +60,16 @@ void reasons(Ui& ui, QueryInspector& queries, const QueryFindings& findings) {
     const bool of_sample = ui.workspace.look.sample.has_value();
     const bool stopped = ui.workspace.recorded()->trace.stopped();
     if (pairs.empty()) {
-        words(ui.style.quiet, !of_sample ? "The two are not both there then."
-                              : stopped  ? "No test that was recorded came to it."
-                                         : "No test came to it.");
+        words(ui.style.quiet, !of_sample ? "A and B are not both present at that time."
+                              : stopped  ? "No recorded test reached it."
+                                         : "No test reached it.");
     }
     rows(ui, "##reasons", static_cast<int>(pairs.size()), kMostReasonRows, [&](int i) {
         pair_row(ui, queries, findings, pairs[static_cast<std::size_t>(i)], "reason." + std::to_string(i));
     });
     if (!pairs.empty() && !of_sample && !stopped &&
         findings.recursion.pairs[static_cast<std::size_t>(pairs.back())].has_children()) {
-        words(ui.style.quiet, "The search ended with a hit before it came to this moment.");
+        words(ui.style.quiet, "The search ended with a hit before this moment.");
     }
     recording_note(ui, "reasons");
     query_button(ui, "clear", "reasons.none");

@@ -54,7 +54,8 @@ class StatementWords {
         const std::string word = next(what);
         const std::optional<double> value = parse_double(word);
         if (!value) {
-            throw std::invalid_argument(in_quotes(word) + " is no number: " + line_.words.front() + " needs " + what);
+            throw std::invalid_argument(in_quotes(word) + " is not a number: " + line_.words.front() + " needs " +
+                                        what);
         }
         return *value;
     }
@@ -62,7 +63,7 @@ class StatementWords {
         const std::string word = next(what);
         const std::optional<int> value = parse_int(word);
         if (!value || *value < 0 || *value > most) {
-            throw std::invalid_argument(in_quotes(word) + " is no whole number from 0 to " + std::to_string(most));
+            throw std::invalid_argument(in_quotes(word) + " is not a whole number from 0 to " + std::to_string(most));
         }
         return *value;
     }
@@ -77,7 +78,7 @@ class StatementWords {
         if (done()) return 0;
         const std::string word = next("");
         const auto at = std::find(of.begin(), of.end(), word);
-        if (at == of.end()) throw std::invalid_argument(in_quotes(word) + " is none of " + listed(of));
+        if (at == of.end()) throw std::invalid_argument(in_quotes(word) + " is not one of " + listed(of));
         return static_cast<int>(at - of.begin());
     }
     /// All that is left, a file's name with this extension.
@@ -194,7 +195,7 @@ ScriptAction make_scroll(StatementWords& words) {
 ScriptAction make_key(StatementWords& words) {
     const std::string name = words.next("a chord, such as Ctrl+S");
     const std::optional<Chord> chord = chord_from_name(name);
-    if (!chord) throw std::invalid_argument(in_quotes(name) + " is no chord; write it like Ctrl+Shift+S");
+    if (!chord) throw std::invalid_argument(in_quotes(name) + " is not a chord; write it like Ctrl+Shift+S");
     return [chord](ScriptRun& run) { press_chord(run, *chord); };
 }
 
@@ -395,7 +396,7 @@ ScriptAction make_action(const ScriptLine& line, std::span<const Command> known)
     }
     std::vector<std::string> names;
     for (const Verb& verb : kVerbs) names.emplace_back(verb.name);
-    throw std::invalid_argument(in_quotes(name) + " is no statement" + did_you_mean(name, names));
+    throw std::invalid_argument(in_quotes(name) + " is not a statement" + did_you_mean(name, names));
 }
 
 }  // namespace mobbscope::app

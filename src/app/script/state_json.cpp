@@ -297,7 +297,7 @@ Json value_at(const Session& session, const Json::json_pointer& pointer) {
 Json parse_value(std::string_view text) {
     Json value = Json::parse(text, nullptr, false);
     if (value.is_discarded()) {
-        throw std::invalid_argument(in_quotes(std::string(text)) + " is no JSON; texts stand in double quotes");
+        throw std::invalid_argument(in_quotes(std::string(text)) + " is not JSON; texts stand in double quotes");
     }
     return value;
 }
@@ -306,7 +306,7 @@ Json::json_pointer parse_pointer(const std::string& text) {
     try {
         return Json::json_pointer(text);
     } catch (const Json::exception&) {
-        throw std::invalid_argument(in_quotes(text) + " is no JSON pointer; write it like /query/collides");
+        throw std::invalid_argument(in_quotes(text) + " is not a JSON pointer; write it like /query/collides");
     }
 }
 
@@ -326,7 +326,7 @@ double take_number(std::string_view& text, const char* what) {
     const std::string_view word = take_word(text);
     const std::optional<double> value = parse_double(word);
     if (!value) {
-        throw std::invalid_argument(in_quotes(std::string(word)) + " is no number: it needs " + what);
+        throw std::invalid_argument(in_quotes(std::string(word)) + " is not a number: it needs " + what);
     }
     return *value;
 }

@@ -55,7 +55,7 @@ const Sandwich* CostInspector::sandwich() const {
 }
 
 void CostInspector::show_sandwich(TreeNode node) {
-    // The one that was asked for before could end after this one.
+    // Cancel the previous request: it could finish later.
     std::erase_if(workspace_.jobs, [](const RunningJob& running) { return running.job->title() == kCountAround; });
     if (sandwich() && sandwich()->of == node) return;
     jobs_.start(kCountAround, [this, in = workspace_.document().fitted, node](JobControl& control) -> Job::Finish {

@@ -77,14 +77,14 @@ void read_words(std::string text, const Read& read) {
 
 std::string_view CrowdMaker::why_no_graph() const {
     if (workspace_.empty()) return "nothing is open";
-    if (workspace_.in_excerpt()) return "the two are taken from a scene: go back to it first";
+    if (workspace_.in_excerpt()) return "this is an excerpt: go back to the whole scene first";
     if (workspace_.scene().graph) return "a motion graph is open already: open recordings";
     return "";
 }
 
 std::string_view CrowdMaker::why_no_crowd() const {
     if (workspace_.empty()) return "nothing is open";
-    if (workspace_.in_excerpt()) return "the two are taken from a scene: go back to it first";
+    if (workspace_.in_excerpt()) return "this is an excerpt: go back to the whole scene first";
     if (!workspace_.scene().graph) return "there is no motion graph: build one first";
     return "";
 }

@@ -54,7 +54,7 @@ void Excerpts::open_candidate(int candidate) {
     const std::vector<Candidate>& asked_for = followed ? followed->choice.candidates : none;
     if (candidate < 0 || candidate >= static_cast<int>(asked_for.size()) ||
         !asked_for[static_cast<std::size_t>(candidate)].blocker) {
-        throw std::invalid_argument("nobody rules this candidate out: take one that meets somebody");
+        throw std::invalid_argument("no agent rules this candidate out: choose one that meets an agent");
     }
     const Candidate& asked = asked_for[static_cast<std::size_t>(candidate)];
     const Blocker& blocker = *asked.blocker;

@@ -19,8 +19,7 @@ class Excerpts {
 
     // All throw std::invalid_argument while a job is under way.
     void open(const PlacedAgent& a, const PlacedAgent& b);
-    /// The two of a conflict. Of a run where no play was forced the simulator was told that they do not collide: the
-    /// query expects that.
+    /// The two agents of a conflict. In a run without forced plays the query expects a miss.
     void open_conflict(const SceneConflict& of);
     /// A candidate of the choice and who rules it out. Throws std::invalid_argument if nobody does.
     void open_candidate(int candidate);

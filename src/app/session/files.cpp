@@ -306,7 +306,7 @@ void Files::add(const std::vector<std::filesystem::path>& files) {
     if (parts_.workspace.empty()) return open(files);
     if (complain_of_missing(files)) return;
     if (!may_add()) {
-        throw InputError(parts_.workspace.crowd() ? "a run stands alone: open the files by themselves"
+        throw InputError(parts_.workspace.crowd() ? "a run cannot be combined with other files: open them by themselves"
                                                   : std::string(parts_.screen->words().shown) + ", or open the files");
     }
     parts_.jobs.start("Adding files", [this, files](JobControl& control) -> Job::Finish {
@@ -358,12 +358,12 @@ void Files::save_as(const std::filesystem::path& file) {
         throw InputError(file.string(), "", "scenes are written as .json; rename the output");
     }
     if (parts_.workspace.in_excerpt() && parts_.workspace.file && is_same_file(file, *parts_.workspace.file)) {
-        throw InputError(file.string(), "", "this is what the two were taken from; save them under another name");
+        throw InputError(file.string(), "", "the excerpt was taken from this file; save it under another name");
     }
     if (parts_.workspace.file && is_same_file(file, *parts_.workspace.file) &&
         std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
         throw InputError(file.string(), "",
-                         "another program has written it since it was opened: save under another name, or once more "
+                         "another program has written it since it was opened: save under another name, or save again "
                          "to overwrite it");
     }
     const bool was_removed =

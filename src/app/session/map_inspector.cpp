@@ -104,8 +104,8 @@ glm::dvec2 MapInspector::place_of_b(const PlacementMap& map) const {
 
 std::string MapInspector::why_not_placed() const {
     if (!can_be()) return "no query is shown";
-    if (workspace_.crowd()) return "a run is not edited";
-    if (query().b.agent < 0) return "the query places B itself: it is no agent of the scene";
+    if (workspace_.crowd()) return "a run cannot be edited";
+    if (query().b.agent < 0) return "the query places B itself: it is not an agent of the scene";
     return "";
 }
 

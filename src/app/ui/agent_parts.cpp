@@ -81,7 +81,7 @@ void agent_buttons(Ui& ui, const std::string& mark, const ListedAgents& listed, 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const bool alone = are_isolated(ui.workspace, listed.who);
     const ButtonPlace of_alone = agent_button(ui, mark + ".solo", "agents.solo", listed.text,
-                                              alone ? "Show what was in the picture before" : "Show alone", alone);
+                                              alone ? "Show what was shown before" : "Show alone", alone);
     if (lit || alone) draw_alone(draw, of_alone.middle, ui.px(1), of_alone.color);
     const bool pinned = are_pinned(ui.workspace, listed.who);
     const ButtonPlace of_pin =

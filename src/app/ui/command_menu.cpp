@@ -178,7 +178,7 @@ void tool_row(Ui& ui, std::span<const ToolButton> buttons) {
     if (fit < buttons.size()) {
         if (ImGui::Button(kMore)) ImGui::OpenPopup("more");
         ui.mark("toolbar.more");
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("What has no room beside");
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("More buttons");
         const MenuSpacing spacing(ui);
         if (ImGui::BeginPopup("more")) {
             for (std::size_t i = fit; i < buttons.size(); ++i) {

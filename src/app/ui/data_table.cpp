@@ -95,7 +95,9 @@ float DataTable::height(const Ui& ui, int rows) {
 void DataTable::draw(Ui& ui, const TableContent& content) {
     rows_are_new_ = std::exchange(rows_, content.rows) != content.rows || rows_are_new_;
     const std::string order = content.sorted_by + (content.descending ? " down " : " up ") + content.filter;
-    const bool is_ordered_anew = std::exchange(order_, order) != order;
+    // A table that opens shows the present row.
+    const std::string before = std::exchange(order_, order);
+    const bool is_ordered_anew = !before.empty() && before != order;
     const int columns = static_cast<int>(content.columns.size());
     // Dear ImGui keeps the widths of columns by their place: others have a table of their own.
     std::string id = content.mark;

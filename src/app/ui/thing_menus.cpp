@@ -150,7 +150,7 @@ std::vector<MenuEntry> shown_menu(const Workspace& workspace, const ListedAgents
     const auto like = [&](std::string_view id) { return has_keys ? id : std::string_view(); };
     return {{"agents.hide", listed.text, are_hidden(workspace, listed.who) ? "Show" : "Hide", like("agent.hide")},
             {"agents.solo", listed.text,
-             are_isolated(workspace, listed.who) ? "Show what was there before" : "Show alone", like("agent.solo")},
+             are_isolated(workspace, listed.who) ? "Show what was shown before" : "Show alone", like("agent.solo")},
             {"agents.foreground", listed.text,
              are_in_foreground(workspace, listed.who) ? "No longer in the foreground" : "In the foreground",
              like("agent.foreground")},

@@ -74,8 +74,7 @@ HistogramChange value_histogram(Ui& ui, const ValueHistogram& shown, float width
     text_line(ui.style.quiet, shown.from_text, ui.style.caption);
     if (shown.chosen) {
         ImGui::SameLine(0, ui.px(8));
-        if (small_button(ui, "auto", shown.mark + ".auto", "All values that there are"))
-            out.kind = HistogramChange::Kind::automatic;
+        if (small_button(ui, "auto", shown.mark + ".auto", "All values")) out.kind = HistogramChange::Kind::automatic;
     }
     ImGui::SameLine();
     ImGui::SetCursorScreenPos({at.x + width - text_size(*ui.style.caption, shown.to_text).x, below});

@@ -508,7 +508,7 @@ std::optional<double> typed_number(Ui& ui, const NumberField& field, std::string
     const std::optional<double> value = parse_double(text);
     const std::string unit = field.unit.empty() ? "" : (field.unit == "\u00B0" ? "" : " ") + field.unit;
     if (!value || !std::isfinite(*value)) {
-        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is no number; " + field.what +
+        ui.session.notifications.tell(MessageLevel::warning, in_quotes(text) + " is not a number; " + field.what +
                                                                  " stays " + number_text(field, field.now) + unit);
         return std::nullopt;
     }
@@ -652,14 +652,14 @@ std::optional<double> number_field(Ui& ui, const NumberField& field) {
     return wanted ? wanted : stepped_to;
 }
 
-void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw, int present) {
     const float height = ImGui::GetFrameHeight();
     const bool scrolls = count > most_rows;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});
     if (scrolls)
         ImGui::BeginChild(name, {0, height * (static_cast<float>(most_rows) + 0.5f)}, false,
                           ImGuiWindowFlags_NoBackground);
-    clipped_rows(ui, name, count, height, draw);
+    clipped_rows(ui, name, count, height, draw, scrolls ? present : 0);
     if (scrolls) ImGui::EndChild();
     ImGui::PopStyleVar();
 }

@@ -4,7 +4,9 @@
 #include <app/ui/ui.h>
 #include <base/name_list.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -154,7 +156,14 @@ struct NumberField {
 std::optional<double> number_field(Ui& ui, const NumberField& field);
 
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
-void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw);
+/// `present`: the row that a list which scrolls opens at.
+void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw, int present = 0);
+/// Where in a list the first thing stands that `is` present; 0: nowhere.
+template <class List, class Is>
+int present_row(const List& list, const Is& is) {
+    const auto at = std::ranges::find_if(list, is);
+    return at == std::ranges::end(list) ? 0 : static_cast<int>(at - std::ranges::begin(list));
+}
 
 /// Rows alone, of which those are drawn that are seen or that the keys go to. `height`: of one, pixels. `shown_first`:
 /// the row that is scrolled to where the list appears.

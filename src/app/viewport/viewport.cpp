@@ -709,7 +709,7 @@ void Viewport::promise_words(Ui& ui, const mobb::Placement& now) const {
         text_line(mark_text(ui.style, EventMark::separated),
                   "The answer cannot change" + (std::isinf(*room) ? std::string() : ": " + still));
     } else {
-        text_line(mark_text(ui.style, EventMark::overlap), in_time ? "Further than is proven: the answer may change"
+        text_line(mark_text(ui.style, EventMark::overlap), in_time ? "Farther than is proven: the answer may change"
                                                                    : "Outside the region: the answer may change");
     }
     ui.mark_only(*room > 0 ? "drag.answer_stays" : "drag.answer_may_change");

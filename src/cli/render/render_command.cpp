@@ -68,7 +68,7 @@ void render_one(const RenderArguments& arguments, bool progress) {
 }
 
 void run_render(const Command& command, const RenderCommandArguments& arguments) {
-    if (arguments.json && !arguments.list_backends) throw InputError("--json: it is of --list-backends");
+    if (arguments.json && !arguments.list_backends) throw InputError("--json needs --list-backends");
     if (arguments.list_backends) {
         list_backends(arguments.json);
     } else if (!arguments.batch.empty()) {

@@ -39,7 +39,7 @@ std::array<double, Count> parse_numbers(const std::string& text, double most, co
         const std::optional<double> value = parse_double(rest.substr(0, comma));
         const bool last = comma == std::string_view::npos;
         if (!value || !(*value >= -most && *value <= most) || last != (i + 1 == Count)) {
-            throw std::invalid_argument(in_quotes(text) + " is no " + what + ", each from " + brief(-most) + " to " +
+            throw std::invalid_argument(in_quotes(text) + " is not a " + what + ", each from " + brief(-most) + " to " +
                                         brief(most));
         }
         out[i] = *value;
@@ -72,7 +72,7 @@ std::pair<int, int> parse_frames(const std::string& text) {
 int parse_turntable(const std::string& text) {
     const std::optional<int> count = parse_int(text);
     if (!count || *count < 1)
-        throw std::invalid_argument(in_quotes(text) + " is no number of pictures: give 1 or more");
+        throw std::invalid_argument(in_quotes(text) + " is not a number of pictures: give 1 or more");
     return *count;
 }
 
@@ -158,7 +158,7 @@ std::optional<DrawnNode> part_named(const FittedScene& fitted, const std::string
     const std::size_t colon = text.rfind(':');
     const std::string name = text.substr(0, colon);
     const auto refuse = [](const std::string& why) { return InputError("--subtree: " + why); };
-    if (colon == std::string::npos) throw refuse(in_quotes(text) + " is no node: give AGENT:NODE, such as A:2.1");
+    if (colon == std::string::npos) throw refuse(in_quotes(text) + " is not a node: give AGENT:NODE, such as A:2.1");
     if (fitted.scene().crowd) throw refuse("the agents of a run are others at every time");
     const std::vector<PlacedAgent>& agents = fitted.placed_agents();
     const auto who = std::ranges::find(agents, name, &PlacedAgent::name);
@@ -214,10 +214,10 @@ void check_sequence(const RenderArguments& arguments) {
     if (sequence.frames && sequence.play) contradict("--frames", "--play", "--play takes all of them; leave one out");
     if (sequence.turntable && (sequence.frames || sequence.play)) {
         contradict("--turntable", sequence.play ? "--play" : "--frames",
-                   "pictures go around the scene or on in time; leave one out");
+                   "one turns around the scene, the other goes on in time; leave one out");
     }
     if (sequence.rate && !sequence.frames && !sequence.play && !arguments.is_film()) {
-        throw InputError("--rate: it is of pictures that go on in time; add --play or --frames");
+        throw InputError("--rate needs pictures that go on in time; add --play or --frames");
     }
     if (arguments.ui && sequence.any()) contradict("--ui", kind, "a script runs the window; see mobbscope --help");
 }
@@ -230,7 +230,7 @@ void check_film(const RenderArguments& arguments) {
                          "a film is made of many pictures: add --play, --frames A:B or --turntable N, or name a .png");
     }
     if (arguments.picture.background.value_or(Rgba(1)).a < 1) {
-        throw InputError(film, "films are not seen through; leave out --background, or give a colour without alpha");
+        throw InputError(film, "films cannot be transparent; leave out --background, or give a colour without alpha");
     }
 }
 
@@ -304,7 +304,7 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
     if (arguments.perspective) camera.perspective = *arguments.perspective;
     if (arguments.target) camera.target = arguments.target;
     const auto need_target = [&](const char* option) {
-        if (!camera.target) throw InputError(std::string(option) + ": it is of a target; add one with --target");
+        if (!camera.target) throw InputError(std::string(option) + ": it needs a target; add one with --target");
     };
     if (arguments.distance) {
         need_target("--distance");
@@ -324,11 +324,11 @@ Camera camera_over(Camera camera, const ViewArguments& arguments) {
 
 void add_render_options(Command& command, RenderArguments& arguments) {
     command.add_option("FILE", arguments.file, openable_files());
-    add_parsed(command, "-o,--output", arguments.outputs.image, parse_file_name,
+    add_parsed(command, "-o,--output", arguments.outputs.image, parse_output_name,
                "The picture: .png, or for papers .svg or .pdf; of several pictures the film: .mp4 or .webm", "OUT.png");
-    add_parsed(command, "--ids", arguments.outputs.ids, parse_file_name, "What is in each pixel: object ids as colours",
-               "OUT.png");
-    add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_file_name,
+    add_parsed(command, "--ids", arguments.outputs.ids, parse_output_name,
+               "What is in each pixel: object ids as colours", "OUT.png");
+    add_parsed(command, "--draw-list", arguments.outputs.draw_list, parse_output_name,
                "What is drawn, as numbers; needs no OpenGL", "OUT.json");
     add_parsed(command, "--size", arguments.picture.size, parse_size, "The picture's size in pixels (1280x720)", "WxH");
     add_parsed(command, "--scale", arguments.picture.scale, number_within(kLeastScale, kMostScale),

@@ -64,7 +64,7 @@ mobb::ClipPtr whole_motion(const Scene& run, const std::vector<mobb::ChainPartPt
         }
         return std::make_shared<const mobb::Clip>(std::move(whole));
     } catch (const std::invalid_argument& error) {
-        throw InputError(run.file, "what " + in_quotes(name) + " plays is no chain: " + error.what());
+        throw InputError(run.file, "what " + in_quotes(name) + " plays is not a chain: " + error.what());
     }
 }
 

@@ -85,8 +85,8 @@ struct SimulationCounts {
     std::int64_t candidates = 0;  ///< at choice points
     std::int64_t off_floor = 0;   ///< candidates discarded because they leave the floor
     std::int64_t colliding = 0;   ///< candidates discarded because they collide with a reserved motion
-    std::int64_t no_way_on = 0;   ///< candidates passed over because no plan was found to follow them
-    std::int64_t in_the_way = 0;  ///< candidates passed over because they end in somebody's way
+    std::int64_t no_way_on = 0;   ///< candidates ignored because no plan was found to follow them
+    std::int64_t in_the_way = 0;  ///< candidates ignored because they end in somebody's way
     std::int64_t looked_at = 0;   ///< candidates of the present choice for which a way on was looked for
     std::int64_t queries = 0;     ///< pairs that the trees were asked to discard candidates
     std::int64_t pivots = 0;

@@ -124,7 +124,7 @@ class BvhScanner {
     [[noreturn]] void fail_number() {
         const std::string_view word = next_word();
         const bool has_comma = word.find(',') != std::string_view::npos;
-        fail(in_quotes(word) + " is no finite number" +
+        fail(in_quotes(word) + " is not a finite number" +
              (has_comma ? "; write decimals with a point and separate numbers with blanks" : "; write it like 12.5"));
     }
 
@@ -294,7 +294,7 @@ class BvhParser {
                                         [word](std::string_view channel) { return is_keyword(word, channel); });
         if (known == kChannels.end()) {
             in_.fail(in_quotes(word) +
-                     " is no channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+                     " is not a channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
         }
         const auto channel = static_cast<BvhChannel>(known - kChannels.begin());
         const auto given = std::span(move.channels).first(move.channel_count);

@@ -51,7 +51,7 @@ std::optional<double> metres_per_unit(const std::string& unit);
 std::string_view name(Origin origin);
 std::optional<Origin> origin_from_name(std::string_view name);
 
-/// What was passed over or looks wrong, in one sentence.
+/// What was ignored or looks wrong, in one sentence.
 struct ImportWarning {
     std::string text;         ///< the same for all clips that it is about in the same way
     std::string option{};     ///< the key of the option that mends it; empty: none does

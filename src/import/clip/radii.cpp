@@ -73,7 +73,7 @@ RadiusTable read_radii(const std::filesystem::path& file) {
         if (key.empty()) lines.fail("has no " + what + "; name one, or * for all others");
         const std::optional<double> metres = parse_double(value);
         if (!metres || *metres < 0 || *metres > mobb::kMaxLength) {
-            lines.fail(in_quotes(value) + " is no radius; give metres from 0 to " + format_double(mobb::kMaxLength));
+            lines.fail(in_quotes(value) + " is not a radius; give metres from 0 to " + format_double(mobb::kMaxLength));
         }
         const bool is_new = key == "*" ? !out.others : !out.radii.contains(key);
         if (!is_new) lines.fail(in_quotes(key) + " stands twice; remove one");
@@ -92,7 +92,7 @@ Radius radius_from_text(std::string_view text) {
     const std::filesystem::path file{std::string(text)};
     if (lower_extension(file) == ".csv") return std::make_shared<const RadiusTable>(read_radii(file));
     if (is_column_name(text)) return RadiusColumn{std::string(text)};
-    throw std::invalid_argument(in_quotes(text) + " is no radius; " + std::string(kRadiusForms));
+    throw std::invalid_argument(in_quotes(text) + " is not a radius; " + std::string(kRadiusForms));
 }
 
 std::string radius_text(const Radius& radius) {

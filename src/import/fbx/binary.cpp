@@ -29,7 +29,7 @@ class FbxBinaryReader {
         document_.is_big_endian_ = bytes_[kEndianByte] != 0;
         at_ = kVersionByte;
         const auto version = take<std::uint32_t>(kBinaryHeaderSize);
-        if (version > 100'000) fail(kVersionByte, "says no version of FBX");
+        if (version > 100'000) fail(kVersionByte, "does not say its version of FBX");
         document_.set_version(static_cast<int>(version));
 
         std::vector<FbxRecord>& records = document_.records_;

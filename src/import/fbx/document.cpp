@@ -148,7 +148,7 @@ std::vector<Number> FbxDocument::read(Index record) {
     const bool is_real = std::is_same_v<Number, std::uint32_t> && version_ < kBitsAsIntegers;
     const auto add = [&](const FbxValue& value) {
         if (value.kind != FbxValue::Kind::integer && value.kind != FbxValue::Kind::real)
-            fail(record, "holds " + in_quotes(value.text) + ", which is no number; export the file again");
+            fail(record, "holds " + in_quotes(value.text) + ", which is not a number; export the file again");
         out.push_back(is_real || value.kind == FbxValue::Kind::real ? converted<Number>(value.real)
                                                                     : converted<Number>(value.integer));
     };

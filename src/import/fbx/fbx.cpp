@@ -182,7 +182,7 @@ class FbxSceneBuilder {
         } else {
             const std::string said = unit->kind == FbxValue::Kind::text ? in_quotes(unit->text) : brief(centimetres);
             scene_.unit_doubt = "GlobalSettings says UnitScaleFactor " + said +
-                                ", which is no unit: the unit was guessed from the body's height";
+                                ", which is not a unit: the unit was guessed from the body's height";
         }
     }
 
@@ -193,8 +193,8 @@ class FbxSceneBuilder {
             return axis.index ? std::string(name) + " " + std::to_string(*axis.index) : std::string(name) + " as usual";
         };
         scene_.up_doubt = "GlobalSettings says " + said("UpAxis", axes.up) + ", " + said("FrontAxis", axes.front) +
-                          " and " + said("CoordAxis", axes.right) + ", which are not three axes: " +
-                          (scene_.ground ? "the first was believed" : "y was taken as up");
+                          " and " + said("CoordAxis", axes.right) +
+                          ", which are not three axes: " + (scene_.ground ? "the first was used" : "y was taken as up");
     }
 
     void add_nodes() {
@@ -241,8 +241,7 @@ class FbxSceneBuilder {
         if (lost.empty()) return;
         throw InputError(scene_.file, "Connections",
                          in_quotes(scene_.nodes[as_index(lost.front())].name) + ", one of " +
-                             counted(lost.size(), "node", "nodes") +
-                             ", hangs on itself in a circle; export the file again");
+                             counted(lost.size(), "node", "nodes") + ", is its own ancestor; export the file again");
     }
 
     void add_animation(std::size_t index) {
@@ -319,7 +318,7 @@ class FbxSceneBuilder {
         if (unordered_.empty()) return;
         std::string nodes = in_quotes(unordered_.front());
         if (unordered_.size() > 1) nodes += " and " + counted(unordered_.size() - 1, "more node", "more nodes");
-        warn_all("RotationOrder of " + nodes + " is no order of three axes: read as XYZ");
+        warn_all("RotationOrder of " + nodes + " is not an order of three axes: read as XYZ");
     }
 
     void warn_of_props(const std::vector<std::string>& names) {

@@ -167,7 +167,7 @@ class FbxTextReader {
                 at_ = end + 1;
             } else {
                 const std::string_view word = take_word();
-                if (word.empty()) fail(std::string("'") + c + "' begins no value");
+                if (word.empty()) fail(std::string("'") + c + "' does not begin a value");
                 value = fbx_word(word.starts_with('*') ? word.substr(1) : word);
                 if (word.starts_with('*')) take_array(value);
             }
@@ -208,7 +208,7 @@ class FbxTextReader {
                     document_.file_, document_.place_of(version),
                     "FBXVersion is " +
                         (said.kind == FbxValue::Kind::text ? in_quotes(said.text) : std::to_string(number)) +
-                        ", which is no version; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
+                        ", which is not a version; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
             }
             document_.set_version(static_cast<int>(std::clamp<std::int64_t>(number, 0, 100'000)));
         } else if (const auto told = version_in_comment(bytes_)) {

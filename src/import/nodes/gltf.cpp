@@ -96,7 +96,7 @@ class SceneBuilder {
         const glm::dquat q{r[3], r[0], r[1], r[2]};
         const double length = glm::length(q);
         if (!(length > kTolerance) || !std::isfinite(length)) {
-            fail_node(node, "its rotation is no unit quaternion; correct it");
+            fail_node(node, "its rotation is not a unit quaternion; correct it");
         }
         return q / length;
     }
@@ -159,7 +159,7 @@ class SceneBuilder {
         const std::string unread = elsewhere == from_.unread.end() ? "" : unread_pointers(elsewhere->second);
         if (!unread.empty()) {
             animation.warnings.push_back(unread + ", which " + (elsewhere->second.size() == 1 ? "moves" : "move") +
-                                         " no node: passed over");
+                                         " no node: ignored");
         }
         if (moves_morph_targets)
             animation.warnings.emplace_back("morph targets are animated too; they do not widen the disks");

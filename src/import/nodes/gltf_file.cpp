@@ -50,14 +50,14 @@ GltfParts split_glb(std::string_view bytes, const std::string& file) {
             fail(place,
                  "announces " + std::to_string(size) + " bytes, but " + std::to_string(length - offset) + " are left");
         }
-        if (size % 4 != 0) fail(place, "its length of " + std::to_string(size) + " bytes is no multiple of 4");
+        if (size % 4 != 0) fail(place, "its length of " + std::to_string(size) + " bytes is not a multiple of 4");
         if ((type == kJsonChunk) != (chunk == 0)) fail(place, "the first chunk, and no other, must be JSON");
         if (type == kBinaryChunk && chunk != 1) fail(place, "a binary chunk can only be the second");
         if (type == kJsonChunk) parts.json = bytes.substr(offset, size);
         if (type == kBinaryChunk) parts.binary = bytes.substr(offset, size);
         offset += size;
     }
-    if (chunk == 0) fail("GLB header", "announces no chunk");
+    if (chunk == 0) fail("GLB header", "has no chunk");
     return parts;
 }
 
@@ -106,7 +106,7 @@ struct GltfKeys {
 GltfParts split_gltf(std::string_view bytes, bool named_glb, const std::string& file) {
     if (bytes.starts_with(kMagic)) return split_glb(bytes, file);
     if (named_glb && !begins_as_json(bytes)) {
-        throw InputError(file, "GLB header", "does not begin with 'glTF'; this is no GLB file, or a damaged one");
+        throw InputError(file, "GLB header", "does not begin with 'glTF'; it is not a GLB file, or a damaged one");
     }
     return {bytes, std::nullopt, false};
 }

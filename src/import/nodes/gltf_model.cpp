@@ -190,7 +190,7 @@ class GltfModelReader {
         : root_(root), parts_(parts), file_(file), name_(file.string()) {}
 
     GltfModel model() {
-        if (!root_.value().is_object()) root_.fail("is no JSON object; this is no glTF file");
+        if (!root_.value().is_object()) root_.fail("is not a JSON object; this is not a glTF file");
         check_asset();
         check_required_extensions();
         for (const char* section : {"buffers", "bufferViews", "accessors", "nodes", "skins", "animations"}) {
@@ -393,13 +393,13 @@ class GltfModelReader {
         const auto type =
             std::ranges::find(kAccessorTypes, from["type"].string(), &std::pair<std::string_view, int>::first);
         if (type == kAccessorTypes.end()) {
-            from["type"].fail(in_quotes(from["type"].string()) + " is no type of glTF 2.0; export the file again");
+            from["type"].fail(in_quotes(from["type"].string()) + " is not a type of glTF 2.0; export the file again");
         }
         to.type = type->second;
         if (to.componentType < TINYGLTF_COMPONENT_TYPE_BYTE || to.componentType > TINYGLTF_COMPONENT_TYPE_FLOAT ||
             to.componentType == TINYGLTF_COMPONENT_TYPE_INT) {
             from["componentType"].fail(std::to_string(to.componentType) +
-                                       " is none of glTF 2.0; export the file again");
+                                       " is not one of glTF 2.0; export the file again");
         }
         to.name = string_or(from["name"]);
         if (const GltfPlace normalized = from["normalized"]; normalized.exists()) {

@@ -61,7 +61,7 @@ class Motion {
     virtual void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations = {}) const = 0;
     /// The same rotations where nothing is animated, for all joints: BVH, all angles 0; else the nodes as they stand.
     virtual std::vector<glm::dquat> rest() const { return std::vector<glm::dquat>(joints().size(), {1, 0, 0, 0}); }
-    /// What was passed over, one sentence each.
+    /// What was ignored, one sentence each.
     virtual std::vector<std::string> warnings() const { return {}; }
 };
 

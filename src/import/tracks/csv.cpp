@@ -403,7 +403,7 @@ class CsvParser {
     std::string_view identifier() const {
         const std::size_t column = *formula(Column::id)->only_column();
         if (fields_[column].empty()) fail(column, "the field is empty; name the track");
-        if (!is_utf8(fields_[column])) fail(column, "the name is no UTF-8 text; save the file as UTF-8");
+        if (!is_utf8(fields_[column])) fail(column, "the name is not UTF-8 text; save the file as UTF-8");
         return fields_[column];
     }
 
@@ -424,7 +424,7 @@ class CsvParser {
         }
         const bool is_clock = field.find(':') != std::string_view::npos;
         fail(column, in_quotes(field) + (is_clock ? " is a time of day; give seconds, such as 0.25"
-                                                  : " is no finite number; write it like 0.25"));
+                                                  : " is not a finite number; write it like 0.25"));
     }
 
     /// What a formula makes of the row; 0 where there is none.
@@ -438,7 +438,7 @@ class CsvParser {
             fail(from.front(),
                  in_quotes(fields_[from.front()]) + " is beyond " + format_double(largest) + "; check the units");
         const std::string message = std::string(name(column)) + " becomes " + brief(value) +
-                                    ", which is no number up to " + format_double(largest) + "; check the ";
+                                    ", which is not a number up to " + format_double(largest) + "; check the ";
         from.empty() ? fail(message + "option columns") : fail(from.front(), message + "units");
     }
 
@@ -505,7 +505,7 @@ class CsvParser {
         }
         if (!over.empty()) {
             const bool one = table_.others.size() + unnamed == 1;
-            table_.warnings.push_back({over + (one ? " is" : " are") + " passed over", "columns"});
+            table_.warnings.push_back({over + (one ? " is" : " are") + " ignored", "columns"});
         }
         if (decimal_commas_)
             table_.warnings.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});

@@ -27,8 +27,8 @@ struct CsvTable {
     std::optional<double> rate{};           ///< frames per second, where a comment tells
     double unit = 1;                        ///< metres per unit of x, y and r
     std::string unit_why{};                 ///< who says so: "the column x/cm"; empty: nobody
-    std::vector<ImportWarning> warnings{};  ///< what was passed over or taken for something
-    std::vector<std::string> others{};      ///< names of columns that were passed over, each once
+    std::vector<ImportWarning> warnings{};  ///< what was ignored or taken for something
+    std::vector<std::string> others{};      ///< names of columns that were ignored, each once
     /// The rows of each id, "" without an id column; frames increase where there are any. In order of first appearance.
     std::vector<Track> tracks{};
     Spent spent{};  ///< of the budget

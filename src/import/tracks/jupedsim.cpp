@@ -193,7 +193,7 @@ class JupedsimReader {
         const int type = sqlite3_column_type(row, column);
         if (type == SQLITE_NULL) fail_at(name, "there is no value; give a number");
         if (type != SQLITE_INTEGER && type != SQLITE_FLOAT)
-            fail_at(name, in_quotes(text_in(row, column)) + " is no number; give one");
+            fail_at(name, in_quotes(text_in(row, column)) + " is not a number; give one");
         const double value = sqlite3_column_double(row, column);
         if (!(std::abs(value) <= largest)) fail_at(name, brief(value) + " is beyond " + format_double(largest));
         return value;
@@ -201,7 +201,8 @@ class JupedsimReader {
 
     double whole(sqlite3_stmt* row, int column, const char* name) const {
         const double value = number(row, column, name, kMaxFrame);
-        if (value != std::floor(value)) fail_at(name, format_double(value) + " is no whole number; frames and ids are");
+        if (value != std::floor(value))
+            fail_at(name, format_double(value) + " is not a whole number; frames and ids are");
         return value;
     }
 

@@ -17,7 +17,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kDeepest = 100;          // levels of what is passed over
+constexpr int kDeepest = 100;          // levels of what is ignored
 constexpr std::size_t kLeastStep = 6;  // bytes that a step takes at least
 constexpr std::string_view kMergeKey = "<<";
 
@@ -69,7 +69,7 @@ class YamlEvents {
             if (type() == YAML_SEQUENCE_END_EVENT || type() == YAML_MAPPING_END_EVENT) --depth;
             if (depth == 0) return;
             if (depth > kDeepest)
-                fail("is nested deeper than " + std::to_string(kDeepest) + " levels; this is no plan");
+                fail("is nested deeper than " + std::to_string(kDeepest) + " levels; this is not a plan");
             next();
         }
     }
@@ -87,7 +87,7 @@ class YamlEvents {
         const std::string_view before = text_.substr(0, std::min(parser_.problem_offset, text_.size()));
         const auto line =
             unreadable ? std::ranges::count(before, '\n') : static_cast<std::ptrdiff_t>(parser_.problem_mark.line);
-        std::string message = "is no YAML: " + cleaned(parser_.problem ? parser_.problem : "it cannot be read");
+        std::string message = "is not YAML: " + cleaned(parser_.problem ? parser_.problem : "it cannot be read");
         if (begins_with_tab(line)) message += " (a tab; YAML is indented with blanks)";
         if (parser_.context) message += ", " + cleaned(parser_.context);
         fail(static_cast<int>(line) + 1, message);
@@ -242,7 +242,7 @@ class PlanReader {
     }
 
     [[noreturn]] void fail_as_number(const std::string& key) const {
-        yaml_.fail(key + " is no finite number; write it like 2 or 0.25");
+        yaml_.fail(key + " is not a finite number; write it like 2 or 0.25");
     }
 
     [[noreturn]] void fail_at_merge_key() const { yaml_.fail("merge keys ('<<') are not read; write t, x and y out"); }
@@ -280,7 +280,8 @@ bool looks_like_mapf_plan(std::string_view text) {
 }
 
 TrackFile parse_mapf_plan(std::string_view text, const std::string& file) {
-    if (text.find('\0') != std::string_view::npos) throw InputError(file, "", "holds a NUL byte; this is no text file");
+    if (text.find('\0') != std::string_view::npos)
+        throw InputError(file, "", "holds a NUL byte; this is not a text file");
     return PlanReader(text, file).read();
 }
 

@@ -130,7 +130,7 @@ class CellReader {
             const char* const stop = std::find_if(at_, end_, [](char c) { return c == ',' || c == ')' || c == '('; });
             const std::string_view word = trimmed({at_, stop});
             const std::optional<double> read = parse_double(word);
-            if (!read) fail(in_quotes(word) + " is no finite number; write it like 2");
+            if (!read) fail(in_quotes(word) + " is not a finite number; write it like 2");
             value = *read;
             at_ = stop;
         } else {
@@ -172,7 +172,7 @@ class TextPlanParser {
                     "cells are numbers here, as MAPF-LNS writes them, which tell where they are by the width of "
                     "the map alone; write each as (row,column): 'Agent 0: (2,1)->(2,2)->'");
             } else {
-                lines_.fail("is no line of a plan; " + std::string(kHint));
+                lines_.fail("is not a line of a plan; " + std::string(kHint));
             }
         }
         if (tracks_.empty()) throw InputError(file_, "", "has no step; " + std::string(kHint));
@@ -236,7 +236,7 @@ class TextPlanParser {
                 "cells of a line an agent are taken as (row, column), as EECBS and MAPF-LNS2 write them: x is the "
                 "column, y the row");
         }
-        if (has_targets_) out.warnings.emplace_back("where agents are headed ('->') is passed over");
+        if (has_targets_) out.warnings.emplace_back("where agents are headed ('->') is ignored");
         return out;
     }
 

@@ -122,7 +122,7 @@ void Remarks::read_rate(const std::vector<std::string>& words, std::string_view 
         take(rate_, *found, weight, "frame rates");
     } else if (is_about_rate) {
         warnings_.push_back("the comment " + in_quotes(trimmed(comment)) +
-                            " does not tell a frame rate and is passed over");
+                            " does not tell a frame rate and is ignored");
     }
 }
 

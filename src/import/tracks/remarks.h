@@ -1,5 +1,5 @@
 /// What comments of a text say of its frame rate and unit. They are written for people: what is not understood is
-/// passed over, never refused.
+/// ignored, never refused.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class Remarks {
     std::optional<double> rate() const { return rate_.value; }  ///< frames per second, over 0 to kMaxFrameRate
     std::optional<double> unit() const { return unit_.value; }  ///< metres per unit of the coordinates
 
-    /// What was passed over, a sentence each.
+    /// What was ignored, a sentence each.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:

@@ -204,7 +204,7 @@ class TextTracksParser {
         } else {
             const std::string found = all_numbers ? "numbers in " + columns(words_.size())
                                                   : columns(words_.size()) + ", not all of them numbers";
-            lines_.fail("is no row of a trajectory file (" + found + "); " + std::string(kFormats));
+            lines_.fail("is not a row of a trajectory file (" + found + "); " + std::string(kFormats));
         }
     }
 
@@ -257,7 +257,7 @@ class TextTracksParser {
     double number(int column, double largest) const {
         const auto& [word, known] = words_[static_cast<std::size_t>(column)];
         const std::optional<double> value = std::isnan(known) ? parse_double(word) : known;
-        if (!value) fail(column, in_quotes(word) + " is no finite number; write it like 0.25");
+        if (!value) fail(column, in_quotes(word) + " is not a finite number; write it like 0.25");
         if (std::abs(*value) > largest)
             fail(column, in_quotes(word) + " is beyond " + format_double(largest) + "; check the row");
         return *value;
@@ -267,7 +267,7 @@ class TextTracksParser {
         const double value = number(column, kMaxFrame);
         if (value != static_cast<double>(static_cast<std::int64_t>(value))) {
             fail(column, in_quotes(words_[static_cast<std::size_t>(column)].text) +
-                             " is no whole number, as ids and frames of this format (" + columns_.format +
+                             " is not a whole number, as ids and frames of this format (" + columns_.format +
                              ") are; check the columns");
         }
         return value;
@@ -322,7 +322,7 @@ class TextTracksParser {
     std::string_view label() const {
         std::string_view word = words_[kLabel].text;
         if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
-        if (!is_utf8(word)) fail(kLabel, "the label is no UTF-8 text; save the file as UTF-8");
+        if (!is_utf8(word)) fail(kLabel, "the label is not UTF-8 text; save the file as UTF-8");
         return word;
     }
 

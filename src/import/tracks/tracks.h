@@ -64,7 +64,7 @@ struct TrackFile {
     std::optional<double> guessed_height{};  ///< metres: how high the heads are, where that decided the unit
     std::string unit_assumption{};
 
-    std::vector<std::string> warnings{};  ///< what was passed over, one sentence each
+    std::vector<std::string> warnings{};  ///< what was ignored, one sentence each
     Spent spent{};                        ///< of the budget
 };
 

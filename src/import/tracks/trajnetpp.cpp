@@ -36,7 +36,7 @@ class TrajnetppParser {
         }
         if (predictions_ > 0) {
             out.warnings.push_back(counted(predictions_, "predicted point is", "predicted points are") +
-                                   " passed over; only what was recorded is taken");
+                                   " ignored; only what was recorded is used");
         }
         return out;
     }
@@ -48,7 +48,7 @@ class TrajnetppParser {
         Spent spent;
         spent.add(kOfByte * lines_.line().size(), "a line", file_);
         const Json line = Json::parse(lines_.line(), nullptr, false);
-        if (line.is_discarded()) lines_.fail("is no JSON; give one object a line");
+        if (line.is_discarded()) lines_.fail("is not JSON; give one object a line");
         if (line.is_object() && line.contains("track")) {
             read_track(object(line, "track"));
         } else if (line.is_object() && line.contains("scene")) {
@@ -81,7 +81,7 @@ class TrajnetppParser {
             return;
         }
         const double frame = number(track, "f", kMaxFrame);
-        if (frame != std::floor(frame)) lines_.fail("f is no whole number; frames are");
+        if (frame != std::floor(frame)) lines_.fail("f is not a whole number; frames are");
         tracks_.add(person(track), {frame, number(track, "x", mobb::kMaxLength), number(track, "y", mobb::kMaxLength),
                                     lines_.number()});
     }
@@ -91,7 +91,7 @@ class TrajnetppParser {
         if (track.contains("p") && track["p"].is_string() && !track["p"].get_ref<const std::string&>().empty())
             return track["p"].get<std::string>();
         const double id = number(track, "p", kMaxFrame);
-        if (id != std::floor(id)) lines_.fail("p is no whole number; give one, or a name in quotes");
+        if (id != std::floor(id)) lines_.fail("p is not a whole number; give one, or a name in quotes");
         return std::to_string(static_cast<long long>(id));
     }
 

@@ -33,7 +33,7 @@ PictureSize parse_size(const std::string& text) {
     const std::optional<int> height =
         x == std::string::npos ? std::nullopt : parse_int(std::string_view(text).substr(x + 1));
     if (!width || !height)
-        throw std::invalid_argument(in_quotes(text) + " is no size: give WIDTHxHEIGHT in pixels (1280x720)");
+        throw std::invalid_argument(in_quotes(text) + " is not a size: give WIDTHxHEIGHT in pixels (1280x720)");
     const PictureSize size{*width, *height};
     check(size);
     return size;
@@ -48,7 +48,7 @@ Palette palette_for(Theme theme, const PictureOptions& options) {
 int parse_samples(const std::string& text) {
     const int samples = parse_int(text).value_or(0);
     if (samples == 1 || samples == 2 || samples == 4 || samples == 8) return samples;
-    throw std::invalid_argument(in_quotes(text) + " is no number of samples: give 1, 2, 4 or 8");
+    throw std::invalid_argument(in_quotes(text) + " is not a number of samples: give 1, 2, 4 or 8");
 }
 
 Rgba parse_background(const std::string& text) {
@@ -58,7 +58,7 @@ Rgba parse_background(const std::string& text) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
     const bool whole = error == std::errc() && end == digits.data() + digits.size();
     if (!text.starts_with('#') || !whole || (digits.size() != 6 && digits.size() != 8)) {
-        throw std::invalid_argument(in_quotes(text) + " is no background: give #RRGGBB, #RRGGBBAA or transparent");
+        throw std::invalid_argument(in_quotes(text) + " is not a background: give #RRGGBB, #RRGGBBAA or transparent");
     }
     if (digits.size() == 6) value = value << 8 | 255u;
     return Rgba(value >> 24, value >> 16 & 255u, value >> 8 & 255u, value & 255u) / 255.0f;

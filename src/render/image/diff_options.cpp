@@ -40,7 +40,7 @@ void set_threshold(DiffOptions& options, const std::string& text) {
     }
     if (!level || !(*level >= 0 && *level <= 255)) {
         throw std::invalid_argument(in_quotes(text) +
-                                    " is no tolerance; give levels from 0 to 255 such as 3, or 3/255, or 1.2%");
+                                    " is not a tolerance; give levels from 0 to 255 such as 3, or 3/255, or 1.2%");
     }
     options.channel_tolerance = options.tile_tolerance = *level;
 }
@@ -60,8 +60,8 @@ void set_allowance(DiffOptions& options, const std::string& text) {
     const auto share = percent ? *percent / 100 : ppm ? *ppm / 1e6 : parse_double(text);
     // A bare 1 is as likely one pixel or one per cent.
     if (!share || !(*share >= 0 && *share <= 1) || (!percent && !ppm && *share == 1)) {
-        throw std::invalid_argument(in_quotes(text) +
-                                    " is no number of pixels; give one such as 12px, or a share such as 20ppm or 0.1%");
+        throw std::invalid_argument(
+            in_quotes(text) + " is not a number of pixels; give one such as 12px, or a share such as 20ppm or 0.1%");
     }
     options.least_pixels = 0;
     options.pixel_fraction = *share;

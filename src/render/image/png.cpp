@@ -186,7 +186,7 @@ class PngWriter {
 /// Reads the header; throws InputError where the bytes are no PNG, or damaged.
 PictureSize read_header(PngReader& reader, std::string_view bytes, const std::string& name) {
     if (png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, std::min<std::size_t>(bytes.size(), 8)) != 0) {
-        throw InputError(name, "", "is no PNG picture; give a .png file");
+        throw InputError(name, "", "is not a PNG picture; give a .png file");
     }
     if (!reader.read_header()) refuse(reader, name);
     return {static_cast<int>(reader.width()), static_cast<int>(reader.height())};

@@ -230,7 +230,7 @@ TEST(RealWindow, APersonHidesAllButTwoOfSeventeenClips) {
     ASSERT_EQ(status, 0);
     const Json two = state(folder / "two.json");
     EXPECT_EQ(two["view"]["hidden"].size(), 15u);
-    EXPECT_EQ(two["modified"], false) << "how clips are seen is no edit";
+    EXPECT_EQ(two["modified"], false) << "how clips are seen is not an edit";
 }
 
 // Picture tests by hand: one of the failing is accepted and given back, and opened as a scene. review.script
