@@ -302,14 +302,15 @@ TEST(Query, BoxesApartByMoreThanTheSlackAreSeparated) {
             EXPECT_EQ(trace[1].outcome, Outcome::separated);
         }
     }
-    // In single precision, of which each block adds some 1e-5 m to its radius.
+    // Bounds in single precision.
     const Clip one(1, std::vector<Disk>{{0, 0, kRadius}});
     const Blocks blocks(std::make_shared<const Clip>(one));
     const auto meet = [&](double apart) {
         return roots_meet(PlacedBlocks(blocks, {}), PlacedBlocks(blocks, {.translate = {apart, 0}}));
     };
     EXPECT_TRUE(meet(2 * kRadius));
-    EXPECT_FALSE(meet(2 * kRadius + 5e-5));
+    EXPECT_FALSE(meet(2 * kRadius + 1e-5));
+    EXPECT_LT(PlacedBlocks(blocks, {}).slack(), 1.5e-5F);
 }
 
 TEST(Query, ExtremeNumbersChangeNoAnswer) {
