@@ -8,6 +8,7 @@
 #include <cli/program.h>
 #include <explain/fit_sweep.h>
 #include <explain/time_scale_curves.h>
+#include <explain/tree_cost.h>
 #include <import/tracks/csv.h>
 #include <render/pictures/sweep_chart.h>
 #include <render/vector/vector_picture.h>
@@ -21,6 +22,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,7 +37,7 @@ struct SweepCommandArguments : FittedArguments {
     SweepOrder over;
     bool csv = false;
     bool of_scene = false;  ///< the scene's own queries
-    std::uint64_t seed = 1;
+    std::uint64_t seed = kCountedSeed;
     std::filesystem::path out;
     DrawingArguments drawing{.size = {960, 640}};
 };
@@ -47,8 +49,8 @@ struct RowFigures {
     const SweepRow& row;
     std::optional<std::string> clip;
     std::size_t queries;
-    const MeanTests& tests;
-    const Spread& cost;
+    const MeanTests* tests;  ///< null where nothing is estimated
+    const Spread* cost;
     bool all;  ///< over all queries
 };
 
@@ -57,14 +59,34 @@ template <class Write>
 void for_each_row(const Scene& scene, const SweepResult& result, Write write) {
     const bool single = scene.clips.size() == 1;
     for (const SweepRow& row : result.rows) {
-        write(RowFigures{row, single ? std::optional(scene.clips[0].name) : std::nullopt, result.queries, row.tests,
-                         row.cost, true});
-        for (std::size_t i = 0; i < row.clips.size(); ++i) {
-            const SweepClip& clip = row.clips[i];
+        const auto& estimate = row.estimate;
+        write(RowFigures{row, single ? std::optional(scene.clips[0].name) : std::nullopt, result.queries,
+                         estimate ? &estimate->tests : nullptr, estimate ? &estimate->cost : nullptr, true});
+        for (std::size_t i = 0; estimate && i < estimate->clips.size(); ++i) {
+            const SweepClip& clip = estimate->clips[i];
             if (clip.queries == 0) continue;
-            write(RowFigures{row, scene.clips[i].name, clip.queries, clip.tests, clip.cost, false});
+            write(RowFigures{row, scene.clips[i].name, clip.queries, &clip.tests, &clip.cost, false});
         }
     }
+}
+
+/// Estimated figures by name; none where nothing is estimated, and no error of one query.
+std::vector<std::pair<const char*, std::optional<double>>> estimates_of(const RowFigures& of) {
+    const auto known = [&](auto value) { return of.cost ? std::optional<double>(value()) : std::nullopt; };
+    return {{"box_tests", known([&] { return of.tests->boxes(); })},
+            {"sample_pairs", known([&] { return (*of.tests)[mobb::TestKind::samples]; })},
+            {"cost", known([&] { return of.cost->mean; })},
+            {"standard_error", known([&] { return of.cost->standard_error; })},
+            {"p95", known([&] { return of.cost->p95; })},
+            {"p99", known([&] { return of.cost->p99; })},
+            {"max", known([&] { return of.cost->max; })}};
+}
+
+std::optional<double> time_ns(const SweepRow& row, Protocol protocol) {
+    return row.time(protocol) ? std::optional(row.time(protocol)->ns) : std::nullopt;
+}
+std::optional<double> time_error(const SweepRow& row, Protocol protocol) {
+    return row.time(protocol) ? std::optional(row.time(protocol)->error) : std::nullopt;
 }
 
 void write_options(JsonWriter& out, const mobb::FitOptions& fit) {
@@ -77,18 +99,22 @@ void write_all_options(JsonWriter& out, const mobb::FitOptions& fit) {
     out.member("levels", fit.levels);
 }
 
-void write_row(JsonWriter& out, const RowFigures& figures, bool has_quantiles) {
+void write_times(JsonWriter& out, const char* key, const SweepRow& row,
+                 std::optional<double> (*number)(const SweepRow&, Protocol)) {
+    out.begin_object(key, Layout::row);
+    for (const Protocol protocol : kProtocols) out.member(name(protocol), number(row, protocol));
+    out.end_object();
+}
+
+void write_row(JsonWriter& out, const RowFigures& figures) {
     out.begin_object(Layout::row);
     out.member("clip", figures.clip);
     write_all_options(out, figures.row.fit);
-    out.members("box_tests", figures.tests.boxes(), "sample_pairs", figures.tests[mobb::TestKind::samples]);
-    out.members("cost", figures.cost.mean, "standard_error", figures.cost.standard_error);
-    const auto if_known = [&](double quantile) { return has_quantiles ? std::optional(quantile) : std::nullopt; };
-    out.members("p95", if_known(figures.cost.p95), "p99", if_known(figures.cost.p99), "max",
-                if_known(figures.cost.max));
+    for (const auto& [key, value] : estimates_of(figures)) out.member(key, value);
     if (figures.all) {
-        out.members("difference", figures.row.difference, "difference_error", figures.row.difference_error);
-        out.members("nodes", figures.row.nodes, "bytes", figures.row.bytes);
+        write_times(out, "time_ns", figures.row, time_ns);
+        write_times(out, "time_error_ns", figures.row, time_error);
+        out.members("memory", figures.row.bytes, "nodes", figures.row.nodes);
     }
     out.member("queries", figures.queries);
     out.end_object();
@@ -109,6 +135,26 @@ void write_curves(JsonWriter& out, const std::vector<LevelCurve>& curves) {
     out.end_array();
 }
 
+/// Null where nothing is recommended.
+void write_recommended(JsonWriter& out, const char* key, const SweepResult& result, Protocol protocol) {
+    const SweepAdvice& advice = result.of(protocol);
+    if (!advice.recommended) {
+        out.key(key);
+        return out.null();
+    }
+    const SweepRow &chosen = result.rows[*advice.recommended], &present = result.rows[result.present];
+    const auto cost = [](const SweepRow& row) {
+        return row.estimate ? std::optional(row.estimate->cost.mean) : std::nullopt;
+    };
+    out.begin_object(key);
+    write_all_options(out, chosen.fit);
+    out.members("cost", cost(chosen), "present_cost", cost(present));
+    write_times(out, "time_ns", chosen, time_ns);
+    write_times(out, "present_time_ns", present, time_ns);
+    out.members("memory", chosen.bytes, "present_memory", present.bytes, "why", advice.why);
+    out.end_object();
+}
+
 void print_sweep_json(const Scene& scene, const QueryWorkload& workload, const SweepResult& result,
                       const std::vector<LevelCurve>& curves) {
     JsonWriter out(std::cout);
@@ -118,81 +164,85 @@ void print_sweep_json(const Scene& scene, const QueryWorkload& workload, const S
     out.begin_object("workload", Layout::row);
     out.members("kind", name(workload.kind), "area", of_placements(workload.area), "offset",
                 of_placements(workload.offset), "seed", of_placements(workload.seed), "queries", result.queries);
+    for (const Protocol protocol : kProtocols)
+        out.member(std::string(name(protocol)) + "_queries", result.of(protocol).queries);
     out.end_object();
-    out.member("unit", unit_of(result.order.cost));
-    const bool has_quantiles = result.order.cost == SweepCost::price;
+    out.member("unit", kEstimatedUnit);
     out.begin_array("rows");
-    for_each_row(scene, result, [&](const RowFigures& figures) { write_row(out, figures, has_quantiles); });
+    for_each_row(scene, result, [&](const RowFigures& figures) { write_row(out, figures); });
     out.end_array();
-    const SweepRow& chosen = result.rows[result.recommended];
-    out.begin_object("recommended");
-    write_all_options(out, chosen.fit);
-    out.members("cost", chosen.cost.mean, "present_cost", result.rows[result.present].cost.mean, "why", result.why);
-    out.end_object();
-    out.begin_array("exceptions");
-    for (const SweepException& exception : result.exceptions) {
-        out.begin_object(Layout::row);
-        out.member("clip", scene.clips[static_cast<std::size_t>(exception.clip)].name);
-        write_all_options(out, result.rows[exception.row].fit);
-        out.member("saving", exception.saving);
-        out.end_object();
+    write_recommended(out, "recommended", result, Protocol::warm);
+    write_recommended(out, "recommended_cold", result, Protocol::cold);
+    out.begin_array("undecided");
+    for (const Protocol protocol : kProtocols) {
+        for (const std::size_t row : result.of(protocol).undecided) {
+            out.begin_object(Layout::row);
+            out.member("protocol", name(protocol));
+            write_all_options(out, result.rows[row].fit);
+            write_times(out, "time_ns", result.rows[row], time_ns);
+            write_times(out, "time_error_ns", result.rows[row], time_error);
+            out.member("memory", result.rows[row].bytes);
+            out.end_object();
+        }
     }
     out.end_array();
+    out.begin_object("why");
+    for (const Protocol protocol : kProtocols) out.member(name(protocol), result.of(protocol).why);
+    out.end_object();
     if (!curves.empty()) write_curves(out, curves);
     out.end_object();
 }
 
 void print_sweep_csv(const Scene& scene, const SweepResult& result) {
-    std::cout << "clip,tree,leaf,axes,time_scale,levels,box_tests,sample_pairs,cost,standard_error,difference,"
-                 "difference_error,p95,p99,max,nodes,bytes,queries\n";
-    const bool has_quantiles = result.order.cost == SweepCost::price;
+    std::cout << "clip,tree,leaf,axes,time_scale,levels,box_tests,sample_pairs,cost,standard_error,p95,p99,max,warm_ns,"
+                 "warm_error_ns,cold_ns,cold_error_ns,memory,nodes,queries\n";
     for_each_row(scene, result, [&](const RowFigures& figures) {
-        const mobb::FitOptions& fit = figures.row.fit;
+        const SweepRow& row = figures.row;
+        const mobb::FitOptions& fit = row.fit;
         std::cout << csv_field(figures.clip.value_or("")) << ',' << mobb::name(fit.tree) << ',' << fit.leaf << ','
                   << mobb::name(fit.axes) << ',' << format_double(fit.time_scale) << ',' << fit.levels;
-        const auto number = [](double value, bool known = true) {
-            std::cout << ',' << (known && std::isfinite(value) ? format_double(value) : "");
+        const auto number = [](std::optional<double> value) {
+            std::cout << ',' << (value && std::isfinite(*value) ? format_double(*value) : "");
         };
-        number(figures.tests.boxes());
-        number(figures.tests[mobb::TestKind::samples]);
-        number(figures.cost.mean);
-        number(figures.cost.standard_error);
-        number(figures.row.difference, figures.all);
-        number(figures.row.difference_error, figures.all);
-        for (const double quantile : {figures.cost.p95, figures.cost.p99, figures.cost.max}) {
-            number(quantile, has_quantiles);
+        for (const auto& [key, value] : estimates_of(figures)) number(value);
+        const auto of_all = [&](std::optional<double> value) { number(figures.all ? value : std::nullopt); };
+        for (const Protocol protocol : kProtocols) {
+            of_all(time_ns(row, protocol));
+            of_all(time_error(row, protocol));
         }
-        number(static_cast<double>(figures.row.nodes), figures.all);
-        number(static_cast<double>(figures.row.bytes), figures.all);
+        of_all(static_cast<double>(row.bytes));
+        of_all(static_cast<double>(row.nodes));
         std::cout << ',' << figures.queries << '\n';
     });
 }
 
-/// The rows that are worth a line: the best of each kind and axes, the present one, and the next best of other trees;
-/// the best first.
+/// The rows that are worth a line: what was measured, the fastest warm one first, and the best estimates of other kinds
+/// and axes.
 std::vector<std::size_t> shown_rows(const SweepResult& result) {
     std::vector<std::size_t> order(result.rows.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
-    std::ranges::stable_sort(order, {}, cost);
-    std::vector<std::size_t> lines{result.recommended};
-    const auto add_if = [&](auto is_new) {
-        for (const std::size_t i : order) {
-            const auto same = [&](std::size_t other) { return !is_new(result.rows[i], result.rows[other]); };
-            if (lines.size() < kMostLines && std::ranges::none_of(lines, same)) lines.push_back(i);
-        }
+    const auto estimate = [&](std::size_t i) {
+        return result.rows[i].estimate ? result.rows[i].estimate->cost.mean : 0;
     };
-    if (result.present != result.recommended) lines.push_back(result.present);
-    const auto other_kind = [](const SweepRow& a, const SweepRow& b) {
-        return a.fit.tree != b.fit.tree || a.fit.axes != b.fit.axes;
+    const auto rank = [&](std::size_t i) {
+        const auto& time = result.rows[i].time(Protocol::warm);
+        return std::tuple(!time, time ? time->ns : estimate(i));
     };
-    // Leaves between which no node has its size make the same trees.
-    const auto other_trees = [&](const SweepRow& a, const SweepRow& b) {
-        return other_kind(a, b) || a.cost.mean != b.cost.mean || a.nodes != b.nodes;
-    };
-    add_if([&](const SweepRow& a, const SweepRow& b) { return other_kind(a, b); });
-    add_if(other_trees);
-    std::ranges::stable_sort(lines, {}, cost);
+    std::ranges::stable_sort(order, {}, rank);
+    std::vector<std::size_t> lines;
+    for (const std::size_t i : order) {
+        const SweepRow& row = result.rows[i];
+        // Leaves between which no node has its size make the same trees, and of these one is shown.
+        const auto same = [&](std::size_t other) {
+            const SweepRow& shown = result.rows[other];
+            const bool same_kind = shown.fit.tree == row.fit.tree && shown.fit.axes == row.fit.axes;
+            return same_kind &&
+                   (!row.time(Protocol::warm) || (shown.nodes == row.nodes && estimate(other) == estimate(i)));
+        };
+        if (i == result.present || i == result.fastest(Protocol::warm) || i == result.fastest(Protocol::cold) ||
+            (std::ranges::none_of(lines, same) && lines.size() < kMostLines))
+            lines.push_back(i);
+    }
     return lines;
 }
 
@@ -237,52 +287,63 @@ std::pair<std::string, std::string> applied(const mobb::FitOptions& fit) {
 
 std::vector<std::string> cells_of(const SweepResult& result, std::size_t row) {
     const SweepRow& of = result.rows[row];
-    const bool is_best = row == result.recommended, has_quantiles = result.order.cost == SweepCost::price;
-    const auto cell = [](double value) { return std::isfinite(value) ? figure(value, 3) : "-"; };
-    const auto quantile = [&](double value) { return has_quantiles ? cell(value) : "-"; };
-    const double more = 100 * of.difference / result.rows[result.recommended].cost.mean;
-    return {
-        (is_best ? "* " : "  ") + sweep_words(of.fit, result.order.present) + (row == result.present ? " (now)" : ""),
-        cell(of.cost.mean),
-        cell(of.cost.standard_error),
-        is_best ? "" : formatted("%+.1f %%", more),
-        cell(of.tests.boxes()),
-        cell(of.tests[mobb::TestKind::samples]),
-        quantile(of.cost.p95),
-        quantile(of.cost.p99),
-        quantile(of.cost.max),
-        std::to_string(of.nodes),
-        bytes_text(of.bytes)};
+    const auto cell = [](std::optional<double> value, int digits = 3) {
+        return value && std::isfinite(*value) ? figure(*value, digits) : "-";
+    };
+    const auto is_chosen = [&](Protocol protocol) {
+        const SweepAdvice& advice = result.of(protocol);
+        return advice.recommended == row || std::ranges::find(advice.undecided, row) != advice.undecided.end();
+    };
+    std::vector<std::string> out{sweep_words(of.fit, result.order.present) + (row == result.present ? " (now)" : "")};
+    for (const Protocol protocol : kProtocols) {
+        out.push_back((is_chosen(protocol) ? "* " : "") + cell(time_ns(of, protocol)));
+        out.push_back(cell(time_error(of, protocol), 2));
+    }
+    out.push_back(bytes_text(of.bytes));
+    out.push_back(std::to_string(of.nodes));
+    const std::optional<SweepEstimate>& estimate = of.estimate;
+    const auto estimated = [&](auto value) {
+        return estimate ? std::optional<double>(value(*estimate)) : std::nullopt;
+    };
+    out.push_back(cell(estimated([](const SweepEstimate& e) { return e.cost.mean; })));
+    out.push_back(cell(estimated([](const SweepEstimate& e) { return e.cost.standard_error; }), 2));
+    out.push_back(cell(estimated([](const SweepEstimate& e) { return e.cost.p99; })));
+    out.push_back(cell(estimated([](const SweepEstimate& e) { return e.tests.boxes(); })));
+    out.push_back(cell(estimated([](const SweepEstimate& e) { return e.tests[mobb::TestKind::samples]; })));
+    return out;
 }
 
 void print_sweep_text(const Scene& scene, const QueryWorkload& workload, const SweepResult& result) {
     std::cout << workload_words(scene, workload, result) << '\n';
-    std::vector<Column> table{{"fit"}, {"cost"}, {"+-"},  {"against *"}, {"box tests"}, {"sample pairs"},
-                              {"p95"}, {"p99"},  {"max"}, {"nodes"},     {"memory"}};
+    std::vector<Column> table{{"fit"},   {"warm ns"},      {"+-"}, {"cold ns"}, {"+-"},        {"memory"},
+                              {"nodes"}, {"estimated ns"}, {"+-"}, {"p99"},     {"box tests"}, {"sample pairs"}};
     const std::vector<std::size_t> shown = shown_rows(result);
     for (const std::size_t row : shown) {
         const std::vector<std::string> cells = cells_of(result, row);
         for (std::size_t i = 0; i < cells.size(); ++i) table[i].push_back(cells[i]);
     }
     print_columns(table, true);
-    std::cout << " cost of a query in " << unit_of(result.order.cost);
+    std::cout << " a query, measured on this machine: warm, asked before; cold, with nothing of it in the caches. "
+                 "Estimated: counted tests times price, the same everywhere\n";
     if (shown.size() < result.rows.size())
-        std::cout << "; " << result.rows.size() << " fits were tried, --csv and --json have them all";
-    std::cout << '\n' << result.why << '\n';
-    for (const SweepException& exception : result.exceptions) {
-        std::cout << "  " << cleaned(scene.clips[static_cast<std::size_t>(exception.clip)].name) << ": "
-                  << sweep_words(result.rows[exception.row].fit, result.order.present) << " would cost it "
-                  << figure(100 * exception.saving, 2) << " % less\n";
+        std::cout << " " << result.rows.size() << " fits were tried, --csv and --json have them all\n";
+    for (const Protocol protocol : kProtocols) std::cout << name(protocol) << ": " << result.of(protocol).why << '\n';
+    std::optional<std::size_t> told = result.present;
+    for (const Protocol protocol : kProtocols) {
+        const std::optional<std::size_t> best = result.of(protocol).recommended;
+        if (!best || best == result.present || best == told) continue;
+        told = best;
+        const auto [options, json] = applied(result.rows[*best].fit);
+        std::cout << "to use what is best " << name(protocol) << ": " << options << ", or in a scene: \"fit\": {"
+                  << json << "}\n";
     }
-    if (result.recommended == result.present) return;
-    const auto [options, json] = applied(result.rows[result.recommended].fit);
-    std::cout << "to use it: " << options << ", or in a scene: \"fit\": {" << json << "}\n";
 }
 
 void draw_sweep(const SweepCommandArguments& arguments, const Scene& scene, const QueryWorkload& workload,
                 const SweepResult& result) {
     Chart chart = sweep_chart(result, result.present).chart;
-    chart.title = result.why.substr(0, result.why.find(';'));  // all of it does not fit
+    const std::string& why = result.of(Protocol::warm).why;
+    chart.title = "measured, warm: " + why.substr(0, why.find(';'));  // all of it does not fit
     chart.caption = workload_words(scene, workload, result);
     const DrawingArguments& drawing = arguments.drawing;
     const DrawList list = chart_picture({chart}, drawing.size, drawing.theme, drawing.scale).list;
@@ -347,15 +408,12 @@ void add_sweep_options(Command& command, SweepCommandArguments& arguments) {
                        "scene, for the scene's own queries; or how many standard placements of its clips at most "
                        "(16000)",
                        "scene|N");
-    add_parsed(command, "--seed", arguments.seed, parse_seed, "Seed of the placements (1)", "S");
-    add_parsed(command, "--cost", arguments.over.cost, one_of(sweep_cost_from_name, "price, time"),
-               "price (tests times what each costs: the same everywhere) or time (measured on one thread) (price)",
-               "WHAT");
+    add_parsed(command, "--seed", arguments.seed, parse_seed, "Seed of the placements (0)", "S");
     const Option json = command.add_flag("--json", arguments.json, "Everything as JSON");
     Option csv = command.add_flag("--csv", arguments.csv, "The rows as CSV");
     csv.excludes(json);
     add_parsed(command, "-o,--output", arguments.out, parse_output_name,
-               "Cost over the leaf, as a picture: .png, .svg or .pdf", "PLOT.png");
+               "Estimated cost over the leaf, as a picture: .png, .svg or .pdf", "PLOT.png");
     add_fit_options(command, arguments.fit);
     add_import_options(command, arguments.import_options);
     add_drawing_options(command, arguments.drawing);

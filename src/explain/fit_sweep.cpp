@@ -1,5 +1,4 @@
 #include <base/text.h>
-#include <base/thread_clock.h>
 #include <base/threads.h>
 #include <explain/fit_sweep.h>
 #include <mobb/query.h>
@@ -26,19 +25,18 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kFirstValues = 12;     // of a range
-constexpr std::size_t kFirstQueries = 4096;  // of placements; a scene's are all asked
-constexpr std::size_t kStretch = 64;         // queries that are measured together, at least
+constexpr std::size_t kFirstValues = 12;  // of a range
 constexpr std::size_t kMostRows = 5000;
 constexpr double kMostLeaf = 1e6;
-constexpr double kSame = 0.01;                 // costs nearer than this share are as good as equal
-constexpr double kContender = 0.05;            // kinds within this share of the best are looked at as closely
-constexpr double kException = 0.05;            // a clip that would be served better by this share is named
-constexpr std::size_t kExceptionQueries = 30;  // fewer say too little of a clip
-constexpr double kTold = 3;                    // standard errors that tell two fits apart
-constexpr double kNextScale = 1.02;            // time scales nearer than this factor are neighbours
+constexpr double kSame = 0.01;        // estimates nearer than this share are as good as equal
+constexpr double kContender = 0.05;   // kinds within this share of the best estimate are searched as closely
+constexpr double kNextScale = 1.02;   // time scales nearer than this factor are neighbours
+constexpr std::size_t kFewFits = 12;  // are all measured
+constexpr double kNearlyBest = 0.25;  // by an estimate: prices err by half of this
+constexpr int kNextLeaf = 2;          // a factor: leaves nearer than this make almost the same trees
+constexpr int kMostMeasurements = 8;  // where the fastest has neighbours all the time
+constexpr std::size_t kNamed = 3;     // fits that a sentence lists
 
-constexpr std::array<std::string_view, 2> kCostNames{"price", "time"};
 constexpr std::array<std::string_view, 4> kOptions{"tree", "leaf", "axes", "time_scale"};
 
 /// Three significant digits.
@@ -83,100 +81,75 @@ std::vector<int> node_sizes(std::span<const mobb::ClipPtr> clips) {
     return {out.begin(), out.end()};
 }
 
-using Trees = std::vector<std::shared_ptr<const mobb::Tree>>;
-
-Trees fit_all(std::span<const mobb::ClipPtr> clips, const mobb::FitOptions& fit) {
-    Trees out;
+FitTrees fit_all(std::span<const mobb::ClipPtr> clips, const mobb::FitOptions& fit) {
+    FitTrees out;
     out.reserve(clips.size());
     for (const mobb::ClipPtr& clip : clips) out.push_back(std::make_shared<const mobb::Tree>(clip, fit));
     return out;
 }
 
-/// What was measured of a fit.
-struct Measured {
+/// What is known of a fit.
+struct Tried {
     mobb::FitOptions fit;
-    MeanTests tests;                      ///< sums
-    std::vector<double> costs{};          ///< of each query, ns; of measured time of each stretch of queries
+    bool is_counted = false;              ///< or it has no price, and its size is known
+    MeanTests tests{};                    ///< sums
+    std::vector<double> costs{};          ///< of each query, ns; none of blocks
     std::vector<MeanTests> clip_tests{};  ///< sums over the queries in which a clip takes part; of one clip none
+    double estimate = std::numeric_limits<double>::infinity();  ///< mean of the costs
     std::size_t nodes = 0, bytes = 0;
+    std::array<std::optional<FitTime>, kProtocols.size()> times{};
 
-    double mean() const {
-        double sum = 0;
-        for (const double cost : costs) sum += cost;
-        return sum / static_cast<double>(costs.size());
-    }
+    const std::optional<FitTime>& time(Protocol protocol) const { return times[static_cast<std::size_t>(protocol)]; }
 };
-
-struct Difference {
-    double mean = 0, error = 0;
-};
-
-/// Of two fits on the same queries.
-Difference difference(const std::vector<double>& costs, const std::vector<double>& from) {
-    assert(costs.size() == from.size());
-    const auto count = static_cast<double>(costs.size());
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < costs.size(); ++i) sum += costs[i] - from[i];
-    const double mean = sum / count;
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-        const double off = costs[i] - from[i] - mean;
-        squares += off * off;
-    }
-    return {mean, standard_error(squares, costs.size())};
-}
-
-/// Whether a fit costs more than another for sure. A single number does not say.
-bool is_sure(const Difference& more) { return more.mean >= kTold * more.error; }
 
 /// Fits that differ by what is searched as a range alone.
 struct Family {
+    mobb::FitOptions fit;  ///< but for the leaf and the time scale
     bool leaf_range = false, scale_range = false;
-    std::map<std::pair<double, int>, std::size_t> points{};  ///< by time scale and leaf: what was measured
+    std::map<std::pair<double, int>, std::size_t> points{};  ///< by time scale and leaf: what was tried
     std::set<double> leaves{}, scales{};                     ///< that any point has
 };
 
 MeanTests as_sums(const mobb::TestCounts& counts) { return mean_tests(std::span(&counts, 1)); }
 
+MeanTests mean_of(MeanTests sums, std::size_t count) {
+    for (double& sum : sums.by_kind) sum /= static_cast<double>(count);
+    return sums;
+}
+
+/// "141 ns +-1.4"
+std::string time_words(const FitTime& time) {
+    return figure(time.ns, 3) + " ns" + (std::isnan(time.error) ? "" : " +-" + figure(time.error, 2));
+}
+
 class FitSearch {
   public:
     FitSearch(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,
-              const Progress& progress, const SweepPass& pass)
-        : clips_(clips), order_(order), progress_(progress), pass_(pass), sizes_(node_sizes(clips)) {
+              const Progress& progress, const SweepPass& pass, const FitTimer& timer)
+        : clips_(clips),
+          order_(order),
+          progress_(progress),
+          pass_(pass),
+          timer_(timer),
+          sizes_(node_sizes(clips)),
+          longest_(std::ranges::max(clips, {}, &mobb::Clip::count)->count()) {
         const std::size_t most = std::max<std::size_t>(order.most_queries, 1);
         queries_ = std::span(workload.queries).first(std::min(workload.queries.size(), most));
         placements_ = workload.kind == QueryWorkload::Kind::placements;
-        asked_ = to_ask(placements_ ? kFirstQueries : queries_.size());
     }
 
     SweepResult run() {
         plan();
-        measure_new();
+        count_new();
         add_time_scales();
-        for (;;) {
-            measure_new();
-            if (refine()) continue;
-            if (asked_ == queries_.size() || told_apart()) return result(true);
-            ask_more();
-        }
+        do count_new();
+        while (refine());
+        if (timer_) measure();
+        return result(true);
     }
 
   private:
-    const Measured& at(std::size_t point) const { return *measured_[point]; }
-
-    /// All queries are divided into stretches of equal size, give or take one query. So a fit that is measured in parts
-    /// has the same stretches as one that is measured at once.
-    std::size_t stretch_count() const { return std::max<std::size_t>(queries_.size() / kStretch, 1); }
-    std::size_t stretch_begin(std::size_t stretch) const { return stretch * queries_.size() / stretch_count(); }
-    /// The first that begins at that query or later.
-    std::size_t stretch_from(std::size_t query) const {
-        return (query * stretch_count() + queries_.size() - 1) / queries_.size();
-    }
-
-    /// About so many queries, of which measured time has whole stretches.
-    std::size_t to_ask(std::size_t count) const {
-        const std::size_t some = std::min(count, queries_.size());
-        return order_.cost == SweepCost::time ? stretch_begin(stretch_from(some)) : some;
-    }
+    const Tried& at(std::size_t point) const { return *tried_[point]; }
 
     /// The options that matter to a kind; the others as they are now.
     mobb::FitOptions that_matter(mobb::FitOptions fit) const {
@@ -190,14 +163,22 @@ class FitSearch {
         return fit;
     }
 
+    static mobb::FitOptions with(mobb::FitOptions fit, const std::pair<double, int>& place) {
+        fit.time_scale = place.first;
+        fit.leaf = place.second;
+        return fit;
+    }
+
     void add(Family& family, const mobb::FitOptions& fit) {
         const std::pair<double, int> place{fit.time_scale, fit.leaf};
         if (family.points.contains(place)) return;
         if (is_full()) throw std::invalid_argument(too_many());
-        const int size = *std::prev(std::ranges::upper_bound(sizes_, std::max(fit.leaf, 1)));
-        const auto [known, is_new] =
-            same_trees_.try_emplace({fit.tree, fit.axes, fit.time_scale, size}, measured_.size());
-        if (is_new) measured_.push_back(std::make_shared<const Measured>(Measured{.fit = fit, .tests = {}}));
+        // A tree of one node has one level, whatever its leaf may have.
+        const bool is_single = fit.levels == 1 || fit.leaf >= longest_;
+        const int size = is_single ? longest_ : *std::prev(std::ranges::upper_bound(sizes_, std::max(fit.leaf, 1)));
+        const auto [known, is_new] = same_trees_.try_emplace(
+            {fit.tree, fit.axes, fit.time_scale, size, is_single ? 1 : fit.levels}, tried_.size());
+        if (is_new) tried_.push_back(std::make_shared<const Tried>(Tried{.fit = fit}));
         family.points.emplace(place, known->second);
         family.leaves.insert(fit.leaf);
         family.scales.insert(fit.time_scale);
@@ -212,8 +193,12 @@ class FitSearch {
 
     /// The fits that are tried at first.
     void plan() {
-        using Key = std::tuple<mobb::TreeKind, mobb::Axes, double, double>;
+        using Key = std::tuple<mobb::TreeKind, int, mobb::Axes, double, double>;
         std::map<Key, Family> families;
+        const auto family_of = [&](const mobb::FitOptions& fit) -> Family& {
+            return families.try_emplace({fit.tree, fit.levels, fit.axes, fit.leaf, fit.time_scale}, Family{.fit = fit})
+                .first->second;
+        };
         const auto or_present = [](const auto& values, auto present) {
             return values.empty() ? std::vector<decltype(present)>{present} : values;
         };
@@ -224,15 +209,18 @@ class FitSearch {
         };
         for (const mobb::TreeKind tree : or_present(order_.trees, order_.present.tree)) {
             for (const mobb::Axes axes : or_present(order_.axes, order_.present.axes)) {
+                mobb::FitOptions fit = order_.present;
+                fit.tree = tree;
+                fit.axes = axes;
+                if (mobb::info(tree).splits()) {
+                    mobb::FitOptions single = that_matter(fit);
+                    single.levels = 1;
+                    add(family_of(single), single);
+                }
                 for (const double leaf : listed_or_one(order_.leaf, order_.present.leaf)) {
                     for (const double scale : listed_or_one(order_.time_scale, order_.present.time_scale)) {
-                        mobb::FitOptions fit = order_.present;
-                        fit.tree = tree;
-                        fit.axes = axes;
-                        fit.leaf = static_cast<int>(leaf);
-                        fit.time_scale = scale;
-                        fit = that_matter(fit);
-                        Family& family = families[{fit.tree, fit.axes, fit.leaf, fit.time_scale}];
+                        fit = that_matter(with(fit, {scale, static_cast<int>(leaf)}));
+                        Family& family = family_of(fit);
                         family.leaf_range = order_.leaf.is_range && mobb::info(tree).splits();
                         family.scale_range = order_.time_scale.is_range && mobb::info(tree).uses_time_scale();
                         if (!family.leaf_range) {
@@ -240,7 +228,7 @@ class FitSearch {
                             continue;
                         }
                         for (const double each : values_of(order_.leaf, true)) {
-                            fit.leaf = static_cast<int>(each);
+                            fit.leaf = least_alike(static_cast<int>(each));
                             add(family, fit);
                         }
                     }
@@ -253,6 +241,11 @@ class FitSearch {
         if (rows_ + searched * kFirstValues > kMostRows) throw std::invalid_argument(too_many());
     }
 
+    /// The least leaf of the range that makes the same trees: so there is one name for one fit.
+    int least_alike(int leaf) const {
+        return std::max(*std::prev(std::ranges::upper_bound(sizes_, leaf)), static_cast<int>(order_.leaf.values[0]));
+    }
+
     static std::set<double> values_of(const SweepValues& range, bool whole) {
         const std::vector<double> values = spread_over(range.values[0], range.values[1], whole);
         return {values.begin(), values.end()};
@@ -262,176 +255,82 @@ class FitSearch {
     /// its range.
     void add_present() {
         const mobb::FitOptions& present = order_.present;
+        const std::pair<double, int> place{present.time_scale, present.leaf};
         const auto is_in = [](const SweepValues& range, double value) {
             return range.values[0] <= value && value <= range.values[1];
         };
         const auto takes = [&](const Family& family) {
-            const auto& [place, first] = *family.points.begin();
-            mobb::FitOptions fit = at(first).fit;
-            fit.leaf = present.leaf;
-            fit.time_scale = present.time_scale;
-            return fit == present &&
-                   (family.leaf_range ? is_in(order_.leaf, present.leaf) : place.second == present.leaf) &&
+            const auto& first = family.points.begin()->first;
+            return with(family.fit, place) == present &&
+                   (family.leaf_range ? is_in(order_.leaf, present.leaf) : first.second == present.leaf) &&
                    (family.scale_range ? is_in(order_.time_scale, present.time_scale)
-                                       : place.first == present.time_scale);
+                                       : first.first == present.time_scale);
         };
         auto family = std::ranges::find_if(families_, takes);
-        if (family == families_.end()) family = families_.insert(families_.end(), Family{});
+        if (family == families_.end()) family = families_.insert(families_.end(), Family{.fit = present});
         add(*family, present);
-        present_ = family->points.at({present.time_scale, present.leaf});
+        present_ = family->points.at(place);
     }
 
     /// Of two ranges the second is tried at the best of the first.
     void add_time_scales() {
         for (std::size_t i = 0; i < families_.size(); ++i) {
             if (!families_[i].scale_range) continue;
-            mobb::FitOptions fit = at(best_of(i).measured).fit;
-            fit.leaf = best_of(i).at.second;
-            for (const double scale : values_of(order_.time_scale, false)) {
-                fit.time_scale = scale;
-                add(families_[i], fit);
-            }
+            const int leaf = best_of(i).at.second;
+            for (const double scale : values_of(order_.time_scale, false))
+                add(families_[i], with(families_[i].fit, {scale, leaf}));
         }
     }
 
     /// A pass over the fits that nothing is known of yet.
-    void measure_new() {
+    void count_new() {
         std::vector<std::size_t> fresh;
-        for (std::size_t i = 0; i < measured_.size(); ++i) {
-            if (at(i).costs.empty()) fresh.push_back(i);
+        for (std::size_t i = 0; i < tried_.size(); ++i) {
+            if (!at(i).is_counted) fresh.push_back(i);
         }
         // The present fit comes first: what is shown is compared with it.
         const auto present = std::ranges::find(fresh, present_);
         if (present != fresh.end()) std::rotate(fresh.begin(), present, present + 1);
-        measure(fresh, 0);
-    }
-
-    void ask_more() {
-        const std::size_t first = asked_;
-        asked_ = to_ask(2 * asked_);
-        std::vector<std::size_t> all(measured_.size());
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-        done_ = 0;
-        measure(all, first);
-    }
-
-    /// Adds the queries [first, asked_) to what is known of fits.
-    void measure(const std::vector<std::size_t>& points, std::size_t first) {
-        order_.cost == SweepCost::time ? time(points, first) : count(points, first);
+        // Each on one processor: so no more trees are kept than there are processors.
+        limit_worker_threads();
+        tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t i) { publish(fresh[i], counted(fresh[i])); });
         tell_rows();
     }
 
-    /// Each fit on one processor: so no more trees are kept than there are processors.
-    void count(const std::vector<std::size_t>& points, std::size_t first) {
-        limit_worker_threads();
-        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-            Measured more = at(points[i]);
-            const Trees trees = fit_all(clips_, more.fit);
-            note_size(more, trees);
-            more.clip_tests.resize(clips_.size() > 1 ? clips_.size() : 0);
-            more.costs.reserve(asked_);
-            const MeanTests& prices = prices_of(more.fit.tree);
-            constexpr std::size_t kTogether = 1024;
-            for (std::size_t q = first; q < asked_; ++q) {
-                const ClipQuery& asked = queries_[q];
-                const MeanTests tests = as_sums(count_tests(asked, trees));
-                more.tests += tests;
-                more.costs.push_back(cost_of(tests, prices));
-                if (!more.clip_tests.empty()) {
-                    more.clip_tests[static_cast<std::size_t>(asked.clip_a)] += tests;
-                    if (asked.clip_b != asked.clip_a) more.clip_tests[static_cast<std::size_t>(asked.clip_b)] += tests;
-                }
-                if ((q - first) % kTogether == kTogether - 1) tell(0);
-            }
-            publish(points[i], std::move(more), first == 0);
-        });
-    }
-
-    static void note_size(Measured& of, const Trees& trees) {
-        of.nodes = of.bytes = 0;
+    Tried counted(std::size_t point) {
+        Tried out = at(point);
+        const FitTrees trees = fit_all(clips_, out.fit);
+        out.is_counted = true;
         for (const auto& tree : trees) {
-            of.nodes += tree->nodes().size();
-            of.bytes += tree->bytes();
+            out.nodes += tree->nodes().size();
+            out.bytes += tree->bytes();
         }
+        if (mobb::info(out.fit.tree).has_blocks()) return out;
+        out.clip_tests.resize(clips_.size() > 1 ? clips_.size() : 0);
+        out.costs.reserve(queries_.size());
+        constexpr std::size_t kTogether = 1024;
+        double sum = 0;
+        for (const ClipQuery& asked : queries_) {
+            const MeanTests tests = as_sums(count_tests(asked, trees));
+            out.tests += tests;
+            out.costs.push_back(cost_of(tests));
+            sum += out.costs.back();
+            if (!out.clip_tests.empty()) {
+                out.clip_tests[static_cast<std::size_t>(asked.clip_a)] += tests;
+                if (asked.clip_b != asked.clip_a) out.clip_tests[static_cast<std::size_t>(asked.clip_b)] += tests;
+            }
+            if (out.costs.size() % kTogether == 0) tell(0);
+        }
+        out.estimate = sum / static_cast<double>(queries_.size());
+        return out;
     }
 
-    /// As many fits at a time as fit into some memory, in turns after each stretch of queries; the least of some rounds
-    /// counts.
-    void time(const std::vector<std::size_t>& points, std::size_t first) {
-        constexpr std::size_t kMostBytes = std::size_t{1} << 29;
-        for (std::size_t begin = 0; begin < points.size();) {
-            std::vector<Trees> trees;
-            std::size_t bytes = 0, end = begin;
-            for (; end < points.size() && (end == begin || bytes < kMostBytes); ++end) {
-                trees.push_back(fit_all(clips_, at(points[end]).fit));
-                for (const auto& tree : trees.back()) bytes += tree->bytes();
-                tell(0);
-            }
-            time_in_turns(std::span(points).subspan(begin, end - begin), trees, first);
-            begin = end;
-        }
-    }
-
-    void time_in_turns(std::span<const std::size_t> points, const std::vector<Trees>& trees, std::size_t first) {
-        constexpr int kRounds = 5;
-        std::vector<Measured> more;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            more.push_back(at(points[i]));
-            note_size(more.back(), trees[i]);
-            // The counts that go with it.
-            for (std::size_t q = first; q < asked_; ++q) {
-                more.back().tests += as_sums(count_tests(queries_[q], trees[i]));
-            }
-            tell(0);
-        }
-        const std::size_t begin = stretch_from(first), end = stretch_from(asked_);
-        std::vector<std::vector<double>> least(
-            points.size(), std::vector<double>(end - begin, std::numeric_limits<double>::infinity()));
-        for (int round = 0; round < kRounds; ++round) {
-            for (std::size_t stretch = begin; stretch < end; ++stretch) {
-                const std::size_t from = stretch_begin(stretch), count = stretch_begin(stretch + 1) - from;
-                for (std::size_t i = 0; i < points.size(); ++i) {
-                    const double taken = time_queries(trees[i], queries_.subspan(from, count));
-                    double& of = least[i][stretch - begin];
-                    of = std::min(of, taken / static_cast<double>(count));
-                }
-                tell(0);
-            }
-        }
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            more[i].costs.insert(more[i].costs.end(), least[i].begin(), least[i].end());
-            publish(points[i], std::move(more[i]), first == 0);
-        }
-    }
-
-    /// ns. Blocks are asked by themselves, as a program does that is to be fast.
-    double time_queries(const Trees& trees, std::span<const ClipQuery> queries) {
-        const auto time = [&](const auto& place) {
-            std::vector<decltype(place(queries[0].clip_a, queries[0].place_a))> placed;
-            for (const ClipQuery& asked : queries) {
-                placed.push_back(place(asked.clip_a, asked.place_a));
-                placed.push_back(place(asked.clip_b, asked.place_b));
-            }
-            const auto begin = ThreadClock::now();
-            for (std::size_t i = 0; i < placed.size(); i += 2) hits_ += mobb::query(placed[i], placed[i + 1]) ? 1U : 0U;
-            return nanoseconds(ThreadClock::now() - begin);
-        };
-        const auto tree = [&](int clip) -> const mobb::Tree& { return *trees[static_cast<std::size_t>(clip)]; };
-        if (trees.front()->blocks()) {
-            return time(
-                [&](int clip, const mobb::Placement& at) { return mobb::PlacedBlocks(*tree(clip).blocks(), at); });
-        }
-        return time([&](int clip, const mobb::Placement& at) { return mobb::PlacedTree(tree(clip), at); });
-    }
-
-    void publish(std::size_t point, Measured&& measured, bool show) {
-        auto ready = std::make_shared<const Measured>(std::move(measured));
+    void publish(std::size_t point, Tried&& tried) {
+        auto ready = std::make_shared<const Tried>(std::move(tried));
         const std::scoped_lock lock(telling_);
-        measured_[point] = std::move(ready);
+        tried_[point] = std::move(ready);
         tell_locked(1);
-        // While more queries are asked, rows cannot be compared.
-        const bool can_compare = show && !at(present_).costs.empty();
-        if (can_compare && Clock::now() - shown_ > kBetweenPasses) tell_rows();
+        if (at(present_).is_counted && Clock::now() - shown_ > kBetweenPasses) tell_rows();
     }
 
     void tell(std::size_t more) {
@@ -440,7 +339,7 @@ class FitSearch {
     }
     void tell_locked(std::size_t more) {
         done_ += more;
-        if (progress_) progress_(done_, measured_.size());
+        if (progress_) progress_(done_, tried_.size());
     }
 
     void tell_rows() {
@@ -448,24 +347,18 @@ class FitSearch {
         shown_ = Clock::now();
     }
 
+    /// A fit of a family.
     struct Place {
         std::size_t family = 0;
-        std::pair<double, int> at{};
-        std::size_t measured = 0;
+        std::pair<double, int> at{};  ///< time scale and leaf
+        std::size_t tried = 0;
     };
 
-    /// The cheapest of a family; of equal ones the first.
+    /// The one of the least estimate; of equal ones the first.
     Place best_of(std::size_t family) const {
-        Place out{.family = family};
-        double least = std::numeric_limits<double>::infinity();
-        for (const auto& [place, point] : families_[family].points) {
-            const double mean = at(point).mean();
-            if (mean >= least) continue;
-            least = mean;
-            out.at = place;
-            out.measured = point;
-        }
-        return out;
+        const auto& points = families_[family].points;
+        const auto best = std::ranges::min_element(points, {}, [&](const auto& of) { return at(of.second).estimate; });
+        return {family, best->first, best->second};
     }
 
     /// Adds fits around the best of each family that may have the best of all, or of the second best kind. Returns
@@ -475,9 +368,9 @@ class FitSearch {
         const std::size_t before = rows_;
         for (std::size_t i = 0; i < families_.size(); ++i) {
             const Place place = best_of(i);
-            const double cost = at(place.measured).mean();
+            const double cost = at(place.tried).estimate;
             const auto is_near = [&](std::size_t leader) {
-                return cost >= at(leader).mean() && cost <= at(leader).mean() * (1 + kContender);
+                return cost >= at(leader).estimate && cost <= at(leader).estimate * (1 + kContender);
             };
             if (std::ranges::none_of(leaders, is_near)) continue;
             if (families_[i].leaf_range) refine_along(place, true);
@@ -486,14 +379,15 @@ class FitSearch {
         return rows_ > before;
     }
 
-    /// The best fit, and the best of another kind, if there is one.
+    /// The fit of the least estimate, and that of another kind, if there is one.
     std::vector<std::size_t> leading() const {
         std::vector<std::size_t> out;
         for (int rank = 0; rank < 2; ++rank) {
             std::optional<std::size_t> best;
-            for (std::size_t i = 0; i < measured_.size(); ++i) {
+            for (std::size_t i = 0; i < tried_.size(); ++i) {
+                if (std::isinf(at(i).estimate)) continue;
                 if (!out.empty() && at(i).fit.tree == at(out.front()).fit.tree) continue;
-                if (!best || at(i).mean() < at(*best).mean()) best = i;
+                if (!best || at(i).estimate < at(*best).estimate) best = i;
             }
             if (best) out.push_back(*best);
         }
@@ -503,197 +397,308 @@ class FitSearch {
     void refine_along(const Place& best, bool is_leaf) {
         Family& family = families_[best.family];
         const double here = is_leaf ? best.at.second : best.at.first;
-        const double cost = at(best.measured).mean();
-        const auto with = [&](double value) {
-            mobb::FitOptions fit = at(best.measured).fit;
-            fit.time_scale = is_leaf ? best.at.first : value;
-            fit.leaf = is_leaf ? static_cast<int>(value) : best.at.second;
-            return fit;
+        const double cost = at(best.tried).estimate;
+        const auto place_of = [&](double value) {
+            return is_leaf ? std::pair(best.at.first, static_cast<int>(value)) : std::pair(value, best.at.second);
         };
         const auto look_at = [&](double next) {
-            const auto known = family.points.find({with(next).time_scale, with(next).leaf});
+            const auto known = family.points.find(place_of(next));
             if (is_full()) return;
             if (known == family.points.end()) {
-                add(family, with(next));
+                add(family, with(family.fit, place_of(next)));
                 return;
             }
             const double low = std::min(here, next), high = std::max(here, next);
-            if (are_next(low, high, is_leaf) || at(known->second).mean() - cost <= kSame * cost) return;
-            const double between = middle(low, high, is_leaf);
-            if (between > low && between < high) add(family, with(between));
+            if (are_next(low, high, is_leaf) || at(known->second).estimate - cost <= kSame * cost) return;
+            double between = middle(low, high, is_leaf);
+            if (is_leaf && least_alike(static_cast<int>(between)) <= low) {
+                const auto next = std::ranges::upper_bound(sizes_, static_cast<int>(between));
+                between = next == sizes_.end() ? high : *next;
+            } else if (is_leaf) {
+                between = least_alike(static_cast<int>(between));
+            }
+            if (between > low && between < high) add(family, with(family.fit, place_of(between)));
         };
         const std::set<double>& tried = is_leaf ? family.leaves : family.scales;
         const auto above = tried.upper_bound(here), found = tried.lower_bound(here);
-        const std::optional<double> next_above = above == tried.end() ? std::nullopt : std::optional(*above);
+        std::optional<double> next_above = above == tried.end() ? std::nullopt : std::optional(*above);
+        if (!next_above && is_leaf) next_above = next_leaf(family, best.at.second, true);
         if (found != tried.begin()) look_at(*std::prev(found));
         if (next_above) look_at(*next_above);
     }
 
-    /// Whether the best fit, and that of the second best kind, differ for sure from all that cost more, or by too
-    /// little to matter.
-    bool told_apart() const {
-        return std::ranges::all_of(leading(), [this](std::size_t leader) {
-            return std::ranges::none_of(measured_, [&](const auto& other) {
-                const Difference apart = difference(other->costs, at(leader).costs);
-                return apart.mean > kSame * at(leader).mean() && !is_sure(apart);
-            });
-        });
+    /// Half or twice as many samples, as far as the range goes; none: it ends here.
+    std::optional<int> next_leaf(const Family& family, int leaf, bool more) const {
+        const int least = static_cast<int>(order_.leaf.values[0]);
+        const int most = order_.leaf.is_open ? longest_ : static_cast<int>(order_.leaf.values[1]);
+        if (!family.leaf_range) return std::nullopt;
+        const int next =
+            least_alike(more ? std::min({leaf > most / kNextLeaf ? most : kNextLeaf * leaf, most, longest_})
+                             : std::max(std::min((leaf + kNextLeaf - 1) / kNextLeaf, most), least));
+        return next != leaf && (next > leaf) == more ? std::optional(next) : std::nullopt;
     }
 
+    /// The next fit with other trees that have smaller leaves, or larger ones; of a range one that may be new.
+    std::optional<std::size_t> neighbour(const Place& of, bool more) {
+        Family& family = families_[of.family];
+        if (family.leaf_range) {
+            const auto leaf = next_leaf(family, of.at.second, more);
+            if (!leaf) return std::nullopt;
+            const std::pair<double, int> place{of.at.first, *leaf};
+            if (is_full() && !family.points.contains(place)) return std::nullopt;
+            add(family, with(family.fit, place));
+            const std::size_t next = family.points.at(place);
+            return next == of.tried ? neighbour({of.family, place, next}, more) : next;
+        }
+        std::optional<std::size_t> out;
+        int nearest = 0;
+        for (const Family& other : families_) {
+            for (const auto& [place, point] : other.points) {
+                const int leaf = place.second;
+                if (with(other.fit, {place.first, of.at.second}) != with(family.fit, of.at) || point == of.tried ||
+                    leaf == of.at.second || (leaf > of.at.second) != more ||
+                    (out && std::abs(leaf - of.at.second) >= std::abs(nearest - of.at.second)))
+                    continue;
+                out = point;
+                nearest = leaf;
+            }
+        }
+        return out;
+    }
+
+    /// The neighbours of a fit, wherever it is tried. That of one level is beside the largest leaves of its range.
+    std::set<std::size_t> neighbours(std::size_t point) {
+        std::vector<Place> places;
+        for (std::size_t i = 0; i < families_.size(); ++i) {
+            const Family& family = families_[i];
+            for (const auto& [place, tried] : family.points) {
+                if (tried == point) places.push_back({i, place, point});
+            }
+            mobb::FitOptions single = family.fit;
+            single.levels = 1;
+            single.leaf = at(point).fit.leaf;
+            if (family.leaf_range && single == at(point).fit)
+                places.push_back({i, {single.time_scale, longest_}, point});
+        }
+        std::set<std::size_t> out;
+        for (const Place& place : places) {
+            for (const bool more : {false, true}) {
+                if (const auto next = neighbour(place, more)) out.insert(*next);
+            }
+        }
+        return out;
+    }
+
+    Place place_of(std::size_t point) const {
+        for (std::size_t i = 0; i < families_.size(); ++i) {
+            for (const auto& [place, tried] : families_[i].points) {
+                if (tried == point && with(families_[i].fit, place) == at(point).fit) return {i, place, point};
+            }
+        }
+        return {};
+    }
+
+    // --- measured time
+
+    std::set<std::size_t> worth_measuring() {
+        std::set<std::size_t> out{present_};
+        if (tried_.size() <= kFewFits) {
+            for (std::size_t i = 0; i < tried_.size(); ++i) out.insert(i);
+            return out;
+        }
+        std::vector<Place> bests;
+        for (std::size_t i = 0; i < families_.size(); ++i) bests.push_back(best_of(i));
+        std::ranges::stable_sort(bests, {}, [&](const Place& best) { return at(best.tried).estimate; });
+        const double least = at(bests.front().tried).estimate;
+        std::set<std::pair<mobb::TreeKind, mobb::Axes>> seen;
+        std::set<mobb::TreeKind> kinds;
+        bool has_single = false;
+        for (const Place& best : bests) {
+            const mobb::FitOptions& fit = families_[best.family].fit;
+            if (fit.levels == 1 && !std::exchange(has_single, true)) out.insert(best.tried);
+            const bool is_near = at(best.tried).estimate <= least * (1 + kNearlyBest);
+            const bool of_kind = kinds.insert(fit.tree).second, of_axes = seen.insert({fit.tree, fit.axes}).second;
+            if (!of_kind && !(of_axes && is_near)) continue;
+            out.insert(best.tried);
+            if (is_near) out.merge(neighbours(best.tried));
+        }
+        return out;
+    }
+
+    void measure() {
+        std::set<std::size_t> points = worth_measuring();
+        for (int i = 0; i < kMostMeasurements; ++i) {
+            count_new();
+            measure({points.begin(), points.end()});
+            const std::size_t before = points.size();
+            for (const Protocol protocol : kProtocols) points.merge(neighbours(by_time(protocol).front()));
+            if (points.size() == before) return;
+        }
+        count_new();
+    }
+
+    void measure(const std::vector<std::size_t>& points) {
+        std::vector<FitTrees> trees;
+        for (const std::size_t point : points) {
+            trees.push_back(fit_all(clips_, at(point).fit));
+            tell(0);
+        }
+        const bool is_sample = placements_ || queries_.size() == order_.most_queries;
+        for (const Protocol protocol : kProtocols) {
+            const FitTimes times = time_fits(trees, queries_, is_sample, protocol, timer_, [this] { tell(0); });
+            timed_queries_[static_cast<std::size_t>(protocol)] = times.queries;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                Tried tried = at(points[i]);
+                tried.times[static_cast<std::size_t>(protocol)] = times.fits[i];
+                tried_[points[i]] = std::make_shared<const Tried>(std::move(tried));
+            }
+        }
+    }
+
+    /// What was measured, the fastest first.
+    std::vector<std::size_t> by_time(Protocol protocol) const {
+        std::vector<std::size_t> out;
+        for (std::size_t i = 0; i < tried_.size(); ++i) {
+            if (at(i).time(protocol)) out.push_back(i);
+        }
+        std::ranges::stable_sort(out, {}, [&](std::size_t i) { return at(i).time(protocol)->ns; });
+        return out;
+    }
+
+    // --- what came of it
+
     /// The rows that are known; the present one is among them.
-    SweepResult result(bool is_last) const {
-        SweepResult out{.order = order_};
-        out.queries = asked_;
+    SweepResult result(bool is_last) {
+        SweepResult out{.order = order_, .queries = queries_.size()};
         std::vector<std::pair<mobb::FitOptions, std::size_t>> rows;
         for (const Family& family : families_) {
             for (const auto& [place, point] : family.points) {
-                if (at(point).costs.empty()) continue;
-                mobb::FitOptions fit = at(point).fit;
-                fit.time_scale = place.first;
-                fit.leaf = place.second;
-                rows.emplace_back(fit, point);
+                if (at(point).is_counted) rows.emplace_back(with(family.fit, place), point);
             }
         }
         std::ranges::sort(rows, {}, [](const auto& row) {
             const mobb::FitOptions& fit = row.first;
-            return std::tuple(fit.tree, fit.axes, fit.time_scale, fit.leaf);
+            return std::tuple(fit.tree, fit.levels, fit.axes, fit.time_scale, fit.leaf);
         });
-        std::size_t best = 0;
+        std::map<std::size_t, std::size_t> row_of;  // of fits that make the same trees the present one, or the first
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows[i].first == order_.present) out.present = i;
-            if (at(rows[i].second).mean() < at(rows[best].second).mean()) best = i;
-        }
-        const double least = at(rows[best].second).mean();
-        const bool stays = at(rows[out.present].second).mean() <= least * (1 + kSame);
-        out.recommended = stays ? out.present : best;
-        const Measured& chosen = at(rows[out.recommended].second);
-        for (const auto& [fit, point] : rows) {
-            const Measured& of = at(point);
-            SweepRow row{.fit = fit, .tests = mean_of(of.tests, asked_), .cost = spread_of(of.costs)};
-            if (order_.cost == SweepCost::time) row.cost.p95 = row.cost.p99 = row.cost.max = 0;
-            const Difference from = difference(of.costs, chosen.costs);
-            row.difference = from.mean;
-            row.difference_error = from.error;
-            row.nodes = of.nodes;
-            row.bytes = of.bytes;
+            const auto& [fit, point] = rows[i];
+            const Tried& of = at(point);
+            if (fit == order_.present) out.present = i;
+            if (fit == order_.present) row_of[point] = i;
+            row_of.try_emplace(point, i);
+            SweepRow row{.fit = fit, .times = of.times, .nodes = of.nodes, .bytes = of.bytes};
+            if (!of.costs.empty()) {
+                row.estimate = {.tests = mean_of(of.tests, queries_.size()), .cost = spread_of(of.costs)};
+                if (is_last && clips_.size() > 1) row.estimate->clips = clips_of(of);
+            }
             out.rows.push_back(std::move(row));
         }
-        find_flat(out);
         if (!is_last) return out;
-        if (clips_.size() > 1 && order_.cost == SweepCost::price) add_clips(out, rows);
-        out.why = why(out);
+        for (const Protocol protocol : kProtocols) {
+            SweepAdvice& advice = out.advice[static_cast<std::size_t>(protocol)];
+            advice.queries = timed_queries_[static_cast<std::size_t>(protocol)];
+            if (!timer_) {
+                advice.why = "nothing was measured";
+                continue;
+            }
+            const std::vector<std::size_t> fits = by_time(protocol);
+            const FitTime& best = *at(fits.front()).time(protocol);
+            for (const std::size_t fit : fits) {
+                if (fit == fits.front() || !best.beats(*at(fit).time(protocol)))
+                    advice.undecided.push_back(row_of.at(fit));
+            }
+            if (advice.undecided.size() == 1) {
+                advice.recommended = advice.undecided.front();
+                advice.undecided.clear();
+            }
+            advice.why = why(out, protocol, fits, row_of);
+        }
         return out;
     }
 
-    static MeanTests mean_of(MeanTests sums, std::size_t count) {
-        for (double& sum : sums.by_kind) sum /= static_cast<double>(count);
-        return sums;
-    }
-
-    /// Neighbours by leaf, or where there are none by time scale, that cost as good as the same.
-    static void find_flat(SweepResult& out) {
-        const SweepRow& chosen = out.rows[out.recommended];
-        const auto extend = [&](auto same_line) {
-            const auto is_flat = [&](std::size_t i) {
-                return same_line(out.rows[i].fit) && out.rows[i].cost.mean <= chosen.cost.mean * (1 + kSame);
-            };
-            out.flat_from = out.flat_to = out.recommended;
-            while (out.flat_from > 0 && is_flat(out.flat_from - 1)) --out.flat_from;
-            while (out.flat_to + 1 < out.rows.size() && is_flat(out.flat_to + 1)) ++out.flat_to;
-        };
-        extend([&](mobb::FitOptions fit) {
-            fit.leaf = chosen.fit.leaf;
-            return fit == chosen.fit;
-        });
-        if (out.flat_from == out.flat_to) {
-            extend([&](mobb::FitOptions fit) {
-                fit.time_scale = chosen.fit.time_scale;
-                return fit == chosen.fit;
-            });
+    std::vector<SweepClip> clips_of(const Tried& of) {
+        if (takes_part_.empty()) {
+            takes_part_.resize(clips_.size());
+            for (std::size_t q = 0; q < queries_.size(); ++q) {
+                takes_part_[static_cast<std::size_t>(queries_[q].clip_a)].push_back(q);
+                if (queries_[q].clip_b != queries_[q].clip_a)
+                    takes_part_[static_cast<std::size_t>(queries_[q].clip_b)].push_back(q);
+            }
         }
-    }
-
-    void add_clips(SweepResult& out, const std::vector<std::pair<mobb::FitOptions, std::size_t>>& rows) const {
-        std::vector<std::vector<std::size_t>> takes_part(clips_.size());
-        for (std::size_t q = 0; q < asked_; ++q) {
-            takes_part[static_cast<std::size_t>(queries_[q].clip_a)].push_back(q);
-            if (queries_[q].clip_b != queries_[q].clip_a)
-                takes_part[static_cast<std::size_t>(queries_[q].clip_b)].push_back(q);
-        }
+        std::vector<SweepClip> out;
         for (std::size_t clip = 0; clip < clips_.size(); ++clip) {
-            const std::vector<std::size_t>& queries = takes_part[clip];
-            const auto costs = [&](std::size_t row) {
-                std::vector<double> all;
-                all.reserve(queries.size());
-                for (const std::size_t q : queries) all.push_back(at(rows[row].second).costs[q]);
-                return all;
-            };
-            std::size_t best = out.recommended;
-            for (std::size_t row = 0; row < rows.size(); ++row) {
-                SweepClip of{.queries = queries.size()};
-                if (!queries.empty()) {
-                    of.tests = mean_of(at(rows[row].second).clip_tests[clip], queries.size());
-                    of.cost = spread_of(costs(row));
-                }
-                out.rows[row].clips.push_back(of);
-            }
-            for (std::size_t row = 0; row < rows.size(); ++row) {
-                if (out.rows[row].clips[clip].cost.mean < out.rows[best].clips[clip].cost.mean) best = row;
-            }
-            if (best == out.recommended || queries.size() < kExceptionQueries) continue;
-            const double chosen = out.rows[out.recommended].clips[clip].cost.mean;
-            const Difference saved = difference(costs(out.recommended), costs(best));
-            if (saved.mean > kException * chosen && is_sure(saved))
-                out.exceptions.push_back({static_cast<int>(clip), best, saved.mean / chosen});
+            const std::vector<std::size_t>& queries = takes_part_[clip];
+            SweepClip& by_clip = out.emplace_back(SweepClip{.queries = queries.size()});
+            if (queries.empty()) continue;
+            std::vector<double> costs;
+            costs.reserve(queries.size());
+            for (const std::size_t q : queries) costs.push_back(of.costs[q]);
+            by_clip.tests = mean_of(of.clip_tests[clip], queries.size());
+            by_clip.cost = spread_of(costs);
         }
+        return out;
     }
 
-    std::string why(const SweepResult& out) const {
-        const SweepRow& chosen = out.rows[out.recommended];
-        const SweepRow& now = out.rows[out.present];
-        std::string text = sweep_words(chosen.fit, order_.present);
-        const std::string over =
-            ", over " + counted(asked_, placements_ ? "placement" : "query", placements_ ? "placements" : "queries");
-        if (out.recommended == out.present) {
-            const auto cheapest =
-                std::ranges::min_element(out.rows, {}, [](const SweepRow& row) { return row.cost.mean; });
-            text += ", as now: ";
-            text += out.rows.size() == 1                     ? "nothing else was tried"
-                    : cheapest->cost.mean < chosen.cost.mean ? "no other fit costs 1 % less"
-                                                             : "no other fit costs less";
-            text += over;
-        } else {
-            const auto percent = [&](double cost) { return figure(100 * cost / now.cost.mean, 2) + " %"; };
-            text += ": " + percent(now.difference);
-            if (std::isnan(now.difference_error)) {
-                text += asked_ == 1 ? " (of one query)" : " (of one measurement)";
-            } else if (!is_sure({now.difference, now.difference_error})) {
-                text += " (+-" + percent(now.difference_error) + ")";
+    /// `fits`: what was measured, the fastest first.
+    std::string why(const SweepResult& out, Protocol protocol, const std::vector<std::size_t>& fits,
+                    const std::map<std::size_t, std::size_t>& row_of) {
+        const SweepAdvice& advice = out.of(protocol);
+        const auto words = [&](std::size_t row) { return sweep_words(out.rows[row].fit, order_.present); };
+        const auto time = [&](std::size_t row) { return *out.rows[row].time(protocol); };
+        const FitTime now = time(out.present);
+        std::string text;
+        if (advice.recommended) {
+            const std::size_t best = *advice.recommended;
+            text = words(best);
+            if (best == out.present) {
+                text += ", as now: " + time_words(now);
+            } else {
+                text += ": " + time_words(time(best)) + ", " + figure(100 * (1 - time(best).ns / now.ns), 2) +
+                        " % less than " + words(out.present) + " (now)";
             }
-            text += " less than " + sweep_words(now.fit, order_.present) + " (now)" + over;
+        } else {
+            const std::vector<std::size_t>& rows = advice.undecided;
+            std::vector<std::string> named;
+            for (std::size_t i = 0; i < rows.size() && i < kNamed; ++i)
+                named.push_back(words(rows[i]) + (rows[i] == out.present ? " (now)" : ""));
+            if (rows.size() > kNamed) named.back() = std::to_string(rows.size() - kNamed + 1) + " more";
+            text = "undecided between " + named.front();
+            for (std::size_t i = 1; i < named.size(); ++i) text += (i + 1 < named.size() ? "; " : " and ") + named[i];
+            double most_error = 0;
+            for (const std::size_t row : rows) most_error = std::max(most_error, time(row).error);
+            text += ": " + figure(time(rows.front()).ns, 3) + " to " + figure(time(rows.back()).ns, 3) + " ns";
+            text += std::isnan(time(rows.front()).error) ? ", one measurement" : ", +-" + figure(most_error, 2);
         }
-        if (out.flat_from != out.flat_to) {
-            const mobb::FitOptions &from = out.rows[out.flat_from].fit, &to = out.rows[out.flat_to].fit;
-            const auto range = [](const std::string& what, const std::string& first, const std::string& last) {
-                return first == last ? "" : "; within 1 % from " + what + ' ' + first + " to " + last;
-            };
-            text += range("leaf", std::to_string(from.leaf), std::to_string(to.leaf));
-            text += range("time scale", brief(from.time_scale), brief(to.time_scale));
-        }
-        std::vector<const SweepRow*> others;
-        for (const SweepRow& row : out.rows) {
-            if (row.fit.tree != chosen.fit.tree) others.push_back(&row);
-        }
-        if (!others.empty()) {
-            const SweepRow& next =
-                **std::ranges::min_element(others, {}, [](const SweepRow* row) { return row->cost.mean; });
-            const double times = next.cost.mean / chosen.cost.mean;
-            text += "; the next kind is " + sweep_words(next.fit, order_.present) + ", which costs ";
-            text += times < 1 + kSame ? "as much within 1 %"
-                    : times < 2       ? figure(100 * (times - 1), 2) + " % more"
-                                      : figure(times, 2) + " times as much";
-        }
-        return text;
+        text += ", over " + std::string(placements_ ? mobbscope::counted(advice.queries, "placement", "placements")
+                                                    : mobbscope::counted(advice.queries, "query", "queries"));
+        if (const std::string end = end_of_range(place_of(fits.front())); !end.empty()) text += "; " + end;
+        if (!advice.recommended) return text;
+        const mobb::TreeKind best = at(fits.front()).fit.tree;
+        const auto next = std::ranges::find_if(fits, [&](std::size_t fit) { return at(fit).fit.tree != best; });
+        if (next == fits.end()) return fits.size() == 1 ? text + "; nothing else was tried" : text;
+        const double times = at(*next).time(protocol)->ns / at(fits.front()).time(protocol)->ns;
+        return text + "; the next kind is " + words(row_of.at(*next)) + ", which takes " +
+               (times < 2 ? figure(100 * (times - 1), 2) + " % more" : figure(times, 2) + " times as much");
+    }
+
+    /// Says where the best could lie beyond what is tried; empty where it could not.
+    std::string end_of_range(const Place& best) {
+        const Family& family = families_[best.family];
+        if (family.fit.levels == 1 || !mobb::info(family.fit.tree).splits()) return "";
+        const int leaf = best.at.second;
+        const std::vector<double>& leaves = order_.leaf.values;
+        const auto is_end = [&](double end) {
+            return leaf == (order_.leaf.is_range ? least_alike(static_cast<int>(end)) : static_cast<int>(end));
+        };
+        if (leaves.size() > 1 && ((is_end(std::ranges::min(leaves)) && leaf > 1) ||
+                                  (is_end(std::ranges::max(leaves)) && leaf < longest_ && !order_.leaf.is_open)))
+            return "leaf " + std::to_string(leaf) + " is an end of what was tried: try more";
+        const std::vector<double>& scales = order_.time_scale.values;
+        const bool scale_matters = scales.size() > 1 && mobb::info(family.fit.tree).uses_time_scale();
+        if (scale_matters && (best.at.first == std::ranges::min(scales) || best.at.first == std::ranges::max(scales)))
+            return "time scale " + brief(best.at.first) + " is an end of what was tried: try more";
+        return "";
     }
 
     using Clock = std::chrono::steady_clock;
@@ -703,19 +708,21 @@ class FitSearch {
     SweepOrder order_;
     const Progress& progress_;
     const SweepPass& pass_;
+    const FitTimer& timer_;
     std::vector<int> sizes_;
+    int longest_;  ///< samples of a clip
     std::span<const ClipQuery> queries_;
     bool placements_ = true;
-    std::size_t asked_ = 0;  ///< of the queries
     std::vector<Family> families_;
     std::size_t rows_ = 0;
-    std::vector<std::shared_ptr<const Measured>> measured_;
-    std::size_t present_ = 0;  ///< what was measured of the present fit
-    std::map<std::tuple<mobb::TreeKind, mobb::Axes, double, int>, std::size_t> same_trees_;
+    std::vector<std::shared_ptr<const Tried>> tried_;
+    std::size_t present_ = 0;  ///< of what was tried
+    std::map<std::tuple<mobb::TreeKind, mobb::Axes, double, int, int>, std::size_t> same_trees_;
+    std::array<std::size_t, kProtocols.size()> timed_queries_{};
+    std::vector<std::vector<std::size_t>> takes_part_;  ///< by clip: queries
     std::mutex telling_;
     std::size_t done_ = 0;
     Clock::time_point shown_ = Clock::now();
-    std::size_t hits_ = 0;  // what measured queries answer is used, or they would not be asked
 };
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& give) {
@@ -771,18 +778,10 @@ constexpr const char* kScaleValues = "numbers in m/s such as 0.5,1,2, or a range
 
 }  // namespace
 
-std::string_view name(SweepCost cost) { return kCostNames[static_cast<std::size_t>(cost)]; }
-
-std::optional<SweepCost> sweep_cost_from_name(std::string_view name) {
-    return enumerator_named<SweepCost>(kCostNames, name);
-}
-
-std::string_view unit_of(SweepCost cost) { return cost == SweepCost::price ? "ns, tests times price" : "ns, measured"; }
-
 SweepOrder usual_sweep(const mobb::FitOptions& present) {
     return {.present = present,
             .trees = {mobb::kTreeKinds.begin(), mobb::kTreeKinds.end()},
-            .leaf = {.values = {1, 200}, .is_range = true}};
+            .leaf = {.values = {1, 200}, .is_range = true, .is_open = true}};
 }
 
 void set_over(SweepOrder& order, std::string_view text) {
@@ -816,21 +815,27 @@ void check(const SweepOrder& order) {
     check_values(order.time_scale, "time_scale", 1 / mobb::kMaxTimeScale, mobb::kMaxTimeScale, false);
 }
 
+std::size_t SweepResult::fastest(Protocol protocol) const {
+    const SweepAdvice& of_it = of(protocol);
+    return of_it.recommended.value_or(of_it.undecided.empty() ? present : of_it.undecided.front());
+}
+
 SweepResult sweep_fits(std::span<const mobb::ClipPtr> clips, const QueryWorkload& workload, const SweepOrder& order,
-                       const Progress& progress, const SweepPass& pass) {
+                       const Progress& progress, const SweepPass& pass, const FitTimer& timer) {
     check(order);
     for (const ClipQuery& query : workload.queries) {
         mobb::checked(query.place_a, clips[static_cast<std::size_t>(query.clip_a)]->most_start());
         mobb::checked(query.place_b, clips[static_cast<std::size_t>(query.clip_b)]->most_start());
     }
-    return FitSearch(clips, workload, order, progress, pass).run();
+    return FitSearch(clips, workload, order, progress, pass, timer).run();
 }
 
 std::string sweep_words(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
     const mobb::TreeInfo& kind = mobb::info(fit.tree);
     std::string out(kind.title);
-    if (kind.splits()) out += ", leaf " + std::to_string(fit.leaf);
-    if (kind.splits() && fit.levels != 0) out += ", levels " + std::to_string(fit.levels);
+    if (kind.splits() && fit.levels == 1) out += ", 1 level";
+    if (kind.splits() && fit.levels != 1) out += ", leaf " + std::to_string(fit.leaf);
+    if (kind.splits() && fit.levels > 1) out += ", levels " + std::to_string(fit.levels);
     if (kind.chooses_axes() && (fit.axes != base.axes || fit.axes != mobb::FitOptions{}.axes)) {
         out += ", axes ";
         out += mobb::name(fit.axes);

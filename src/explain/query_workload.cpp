@@ -157,7 +157,9 @@ MeanTests mean_tests(std::span<const mobb::TestCounts> counts) {
 }
 
 double cost_of(const MeanTests& tests, const MeanTests& prices) {
-    return std::inner_product(tests.by_kind.begin(), tests.by_kind.end(), prices.by_kind.begin(), 0.0);
+    double sum = 0;
+    for (const mobb::TestKind kind : mobb::kTestKinds) sum += tests[kind] > 0 ? tests[kind] * prices[kind] : 0;
+    return sum;
 }
 
 double cost_of(const mobb::TestCounts& tests, const MeanTests& prices) {

@@ -56,11 +56,14 @@ std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, 
                                           const Progress& progress) {
     std::vector<double> scales;
     for (const SweepRow& row : swept.rows) {
-        if (mobb::info(row.fit.tree).uses_time_scale()) scales.push_back(row.fit.time_scale);
+        const bool is_single = row.fit.levels != swept.order.present.levels;
+        if (!is_single && mobb::info(row.fit.tree).uses_time_scale()) scales.push_back(row.fit.time_scale);
     }
     std::ranges::sort(scales);
     scales.erase(std::unique(scales.begin(), scales.end()), scales.end());
-    return time_scale_curves(clips, swept.rows[swept.recommended].fit, scales, progress);
+    mobb::FitOptions fit = swept.rows[swept.fastest(Protocol::warm)].fit;
+    fit.levels = swept.order.present.levels;
+    return time_scale_curves(clips, fit, scales, progress);
 }
 
 }  // namespace mobbscope

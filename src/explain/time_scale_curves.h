@@ -26,7 +26,7 @@ struct LevelCurve {
 std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, const mobb::FitOptions& fit,
                                           std::span<const double> time_scales, const Progress& progress = {});
 
-/// ... at the time scales that a sweep tried, with the other options of the fit that it recommends.
+/// ... at the time scales that a sweep tried, with the leaf and the axes of the fit that it measured as the fastest.
 std::vector<LevelCurve> time_scale_curves(std::span<const mobb::ClipPtr> clips, const SweepResult& swept,
                                           const Progress& progress = {});
 

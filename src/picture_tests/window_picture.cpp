@@ -52,6 +52,7 @@ class WorkedWindow {
         scene.fit = fitted.options();
         scene.view = view;
         session_.options.may_write = false;
+        session_.options.may_measure = false;
         app::add_review(session_);
         std::vector<std::filesystem::path> opened;
         if (file.has_filename()) opened.push_back(scene.file);

@@ -1,4 +1,5 @@
 // Which tree to ship: a sweep begun in the window, its plot and its list apply fits.
+#include <app/script/state_json.h>
 #include <app/window/headless_window.h>
 #include <render/gl/gl_context.h>
 #include <scene/scene_edits.h>
@@ -6,17 +7,33 @@
 #include "app/folder_window.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
 
+/// A machine on which blocks are the fastest when warm, and one level when cold.
+std::vector<double> planted(Protocol protocol, const FitTrees& trees, std::span<const ClipQuery> queries,
+                            std::size_t stretch) {
+    const mobb::FitOptions& fit = trees.front()->options();
+    const bool is_best = protocol == Protocol::warm ? fit.tree == mobb::TreeKind::blocks
+                                                    : fit.tree == mobb::TreeKind::mobb && fit.levels == 1;
+    return std::vector<double>((queries.size() + stretch - 1) / stretch, is_best ? 10 : 100);
+}
+
 struct SweepWindow : FolderWindow<CrossingFolder> {
-    SweepWindow() : FolderWindow({1600, 1400}) { open(folder.scene); }
+    SweepWindow() : FolderWindow({1600, 1400}) {
+        session.sweeps.timer = planted;
+        open(folder.scene);
+    }
     void click(const std::string& mark) {
         window.shell().feed(MouseMove{0.5f * (rect(mark).min + rect(mark).max)});
         window.settle();
@@ -38,10 +55,10 @@ TEST(Sweep, AppliesWhatItRecommendsAsOneEdit) {
     SweepWindow w;
     const mobb::FitOptions before = w.fit();
     w.sweep();
-    const SweepResult& result = w.result();
-    ASSERT_NE(result.recommended, result.present);
-    const mobb::FitOptions best = result.rows[result.recommended].fit;
-    EXPECT_LT(result.rows[result.recommended].cost.mean, result.rows[result.present].cost.mean);
+    const std::optional<std::size_t> recommended = w.result().of(Protocol::warm).recommended;
+    ASSERT_TRUE(recommended);
+    const mobb::FitOptions best = w.result().rows[*recommended].fit;
+    EXPECT_EQ(best.tree, mobb::TreeKind::blocks);
     ASSERT_TRUE(w.has("sweep.apply"));
     w.click("sweep.apply");
     EXPECT_EQ(w.fit(), best);
@@ -51,6 +68,44 @@ TEST(Sweep, AppliesWhatItRecommendsAsOneEdit) {
     run_command(w.session, "edit.undo");
     EXPECT_EQ(w.fit(), before);
     EXPECT_TRUE(find_command("tree.sweep_apply")->enabled(w.session));
+}
+
+TEST(Sweep, SaysWhatTheCommandSaysOfWarmAndColdQueries) {
+    SweepWindow w;
+    w.sweep();
+    ASSERT_TRUE(w.has("sweep.why"));
+    ASSERT_TRUE(w.has("sweep.why_cold"));
+    const nlohmann::ordered_json state = state_json(w.session)["sweep"];
+    EXPECT_EQ(state["warm"]["recommended"], "blocks");
+    EXPECT_EQ(state["cold"]["recommended"], "mobb,levels=1");
+    EXPECT_TRUE(state["cold"]["undecided"].empty());
+    EXPECT_EQ(state["cold"]["why"], w.result().of(Protocol::cold).why);
+    EXPECT_TRUE(w.result().of(Protocol::cold).why.starts_with("MOBB, 1 level: 10 ns +-0.1, 90 % less than "))
+        << w.result().of(Protocol::cold).why;
+    w.click("sweep.apply_cold");
+    EXPECT_EQ(w.fit().levels, 1);
+    EXPECT_EQ(w.edits(), 1u);
+}
+
+TEST(Sweep, WhatIsUndecidedIsNotApplied) {
+    SweepWindow w;
+    w.session.sweeps.timer = [](Protocol, const FitTrees&, std::span<const ClipQuery> queries, std::size_t stretch) {
+        return std::vector<double>((queries.size() + stretch - 1) / stretch, 100);
+    };
+    w.sweep();
+    EXPECT_FALSE(find_command("tree.sweep_apply")->enabled(w.session));
+    const nlohmann::ordered_json state = state_json(w.session)["sweep"];
+    EXPECT_TRUE(state["warm"]["recommended"].is_null());
+    EXPECT_GT(state["warm"]["undecided"].size(), 6u);
+}
+
+TEST(Sweep, NothingIsMeasuredForAPicture) {
+    SweepWindow w;
+    w.session.options.may_measure = false;
+    w.sweep();
+    EXPECT_FALSE(w.has("sweep.why"));
+    EXPECT_FALSE(find_command("tree.sweep_apply")->enabled(w.session));
+    EXPECT_TRUE(w.has("sweep.row.0"));
 }
 
 TEST(Sweep, PointsAndRowsApplyTheirFits) {

@@ -2,6 +2,8 @@
 #include <app/commands/command.h>
 #include <scene/fit_text.h>
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,16 +19,21 @@ void set_fit(Edits& edits, const Workspace& workspace, const std::string& text) 
                 [fit](mobb::FitOptions& options) { options = fit; });
 }
 
-/// Whether the last sweep recommends another fit than the present one, for the scene as it is.
-bool recommends(const SweepInspector& sweeps, const Workspace& workspace) {
+/// The row that the last sweep recommends for warm queries of the scene as it is; null: it does not, or the trees are
+/// fitted so.
+const SweepRow* recommended(const SweepInspector& sweeps, const Workspace& workspace) {
     const auto shown = sweeps.result();
-    return shown && !shown->rows->why.empty() && sweeps.is_of_scene() &&
-           shown->rows->rows[shown->rows->recommended].fit != workspace.fitted().options();
+    if (!shown || !sweeps.is_of_scene()) return nullptr;
+    const std::optional<std::size_t> row = shown->rows->of(Protocol::warm).recommended;
+    return row && shown->rows->rows[*row].fit != workspace.fitted().options() ? &shown->rows->rows[*row] : nullptr;
+}
+
+bool recommends(const SweepInspector& sweeps, const Workspace& workspace) {
+    return recommended(sweeps, workspace) != nullptr;
 }
 
 void apply_recommended(Edits& edits, const SweepInspector& sweeps, const Workspace& workspace) {
-    const auto shown = sweeps.result();
-    const mobb::FitOptions& fit = shown->rows->rows[shown->rows->recommended].fit;
+    const mobb::FitOptions fit = recommended(sweeps, workspace)->fit;
     set_fit(edits, workspace, fit_text(fit, workspace.fitted().options()));
 }
 
@@ -38,16 +45,17 @@ std::vector<Command> sweep_commands() {
                 {.menu = kNoMenu,
                  .argument = "TREE[,OPTION=VALUE...]",
                  .present = [](const Workspace& workspace) { return fit_text(workspace.fitted().options(), {}); }}),
-        Command("tree.sweep", "Which tree to ship",
-                "Tries all kinds of trees and leaves on the same queries, and recommends the cheapest.",
-                [](SweepInspector& sweeps, Settings& settings, Keys& keys) {
-                    settings.folded[std::string(kSweepSection)] = false;
-                    keys.section = kSweepSection;
-                    if (!sweeps.is_running()) sweeps.start();
-                },
-                {.enabled = {[](const Workspace& workspace) { return !workspace.scene().clips.empty(); },
-                             [] { return std::string_view("there is no clip"); }},
-                 .also = "best optimal optimise optimize fastest cheapest tightest tune benchmark compare recommend"}),
+        Command(
+            "tree.sweep", "Which tree to ship",
+            "Tries all kinds of trees and leaves on the same queries, measures the best, and recommends the fastest.",
+            [](SweepInspector& sweeps, Settings& settings, Keys& keys) {
+                settings.folded[std::string(kSweepSection)] = false;
+                keys.section = kSweepSection;
+                if (!sweeps.is_running()) sweeps.start();
+            },
+            {.enabled = {[](const Workspace& workspace) { return !workspace.scene().clips.empty(); },
+                         [] { return std::string_view("there is no clip"); }},
+             .also = "best optimal optimise optimize fastest cheapest tightest tune benchmark compare recommend"}),
         Command("tree.sweep_apply", "Fit as recommended", "Fits the trees as the last sweep recommends.",
                 apply_recommended,
                 {.enabled = {recommends, [] { return std::string_view("no other fit is recommended"); }},

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,17 +22,18 @@ namespace {
 constexpr float kChart = 190;
 constexpr float kNearPoint = 14;  // of the mouse to a point
 
-bool has_ended(const SweepResult& result) { return !result.why.empty(); }
-
 /// "UMOBB 34, minarea, 4 m/s": what matters to its kind and is not as in `base`, and the samples of a leaf.
 std::string short_words(const mobb::FitOptions& fit, const mobb::FitOptions& base) {
     const mobb::TreeInfo& kind = mobb::info(fit.tree);
     std::string out(kind.label);
-    if (kind.splits()) out += ' ' + std::to_string(fit.leaf);
+    if (kind.splits()) out += fit.levels == 1 ? " 1 level" : ' ' + std::to_string(fit.leaf);
     if (kind.chooses_axes() && fit.axes != base.axes) out += ", " + std::string(mobb::name(fit.axes));
     if (kind.uses_time_scale() && fit.time_scale != base.time_scale) out += ", " + brief(fit.time_scale) + " m/s";
     return out;
 }
+
+/// Whether there are times, and so advice. There are none in pictures that are to be the same each time.
+bool is_measured(const SweepResult& result) { return result.of(Protocol::warm).queries > 0; }
 
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
@@ -43,32 +45,30 @@ std::optional<std::size_t> row_of_now(const Ui& ui, const SweepResult& result) {
     return static_cast<std::size_t>(at - result.rows.begin());
 }
 
-/// "-30 %", to the fit of now, or of when the sweep was begun; of that itself "now".
-std::string change_text(const Ui& ui, const SweepResult& result, const SweepRow& row) {
-    const std::optional<std::size_t> now = row_of_now(ui, result);
-    const SweepRow& to = result.rows[now.value_or(result.present)];
-    if (&row == &to) return now ? "now" : "before";
-    const double change = 100 * (row.cost.mean / to.cost.mean - 1);
-    return formatted("%+.*f %%", std::abs(change) < 9.95 ? 1 : 0, change);
-}
+std::string time_text(const std::optional<FitTime>& time) { return time ? figure(time->ns, 3) : "-"; }
 
 void tell_row(const SweepResult& result, const SweepRow& row) {
     std::string text = sweep_words(row.fit, result.order.present) + '\n';
-    text += cost_text(row.cost.mean) + " a query, ";
-    if (result.queries > 1) text += "\u00B1 " + figure(row.cost.standard_error, 2) + ", ";
-    text += "over " + counted(result.queries, "query", "queries") + '\n';
-    text += figure(row.tests.boxes(), 3) + " box tests, " + figure(row.tests[mobb::TestKind::samples], 3) +
-            " sample pairs, " + figure(row.tests[mobb::TestKind::time], 3) + " tests of time\n";
-    if (row.cost.max > 0) {
-        text += "95 % of queries cost at most " + cost_text(row.cost.p95) + ", 99 % " + cost_text(row.cost.p99) +
-                ", all " + cost_text(row.cost.max) + '\n';
+    for (const Protocol protocol : kProtocols) {
+        const std::optional<FitTime>& time = row.time(protocol);
+        if (!time) continue;
+        text += "measured, " + std::string(name(protocol)) + ": " + cost_text(time->ns) + " a query, \u00B1 " +
+                figure(time->error, 2) + '\n';
     }
-    if (has_ended(result) && result.queries > 1 && &row != &result.rows[result.recommended]) {
-        text += formatted("%+.3g", row.difference) + " ns to the recommended one, \u00B1 " +
-                figure(row.difference_error, 2) + " (standard error of the paired difference)\n";
+    if (const std::optional<SweepEstimate>& estimate = row.estimate) {
+        text += "estimated: " + cost_text(estimate->cost.mean) + " a query";
+        if (result.queries > 1) text += ", \u00B1 " + figure(estimate->cost.standard_error, 2);
+        text += ", over " + counted(result.queries, "query", "queries") + '\n';
+        text += figure(estimate->tests.boxes(), 3) + " box tests, " +
+                figure(estimate->tests[mobb::TestKind::samples], 3) + " sample pairs, " +
+                figure(estimate->tests[mobb::TestKind::time], 3) + " tests of time\n";
+        text += "95 % of queries cost at most " + cost_text(estimate->cost.p95) + ", 99 % " +
+                cost_text(estimate->cost.p99) + ", all " + cost_text(estimate->cost.max) + '\n';
+    } else {
+        text += "not estimated: tests of blocks have no price\n";
     }
-    text += counted(row.nodes, "node", "nodes") + ", " + figure(static_cast<double>(row.bytes) / 1024, 3) + " KiB\n";
-    ImGui::SetTooltip("%s%s", text.c_str(), has_ended(result) ? "click to fit the trees so" : "sweeping");
+    text += counted(row.nodes, "node", "nodes") + ", " + bytes_text(row.bytes) + '\n';
+    ImGui::SetTooltip("%s%s", text.c_str(), result.has_ended() ? "click to fit the trees so" : "sweeping");
 }
 
 void apply_row(const Ui& ui, const SweepRow& row) {
@@ -113,7 +113,7 @@ void series_names(Ui& ui, const Chart& chart) {
     ImGui::PopFont();
 }
 
-/// Costs over the samples of a leaf. The point next to the mouse tells of its fit, and a click applies it.
+/// Estimated costs over the samples of a leaf. The point next to the mouse tells of its fit, and a click applies it.
 void cost_chart(Ui& ui, const SweepResult& result) {
     const SweepChart chart = sweep_chart(result, row_of_now(ui, result));
     const auto points = draw_chart(ui, chart.chart, "sweep.chart");
@@ -139,7 +139,7 @@ void cost_chart(Ui& ui, const SweepResult& result) {
     if (!hovered || !nearest) return;
     ImGui::GetWindowDrawList()->AddCircle(nearest_at, ui.px(6), ui.style.text, 0, ui.px(1.4f));
     tell_row(result, result.rows[*nearest]);
-    if (clicked && has_ended(result)) apply_row(ui, result.rows[*nearest]);
+    if (clicked && result.has_ended()) apply_row(ui, result.rows[*nearest]);
 }
 
 /// The level that is shown, over the time scale.
@@ -156,54 +156,86 @@ void curves_chart(Ui& ui, const SweepInspector& sweeps, const std::vector<LevelC
         ui.later([](SweepInspector& now) { now.shows_volume = !now.shows_volume; });
 }
 
-/// The cheapest fit of each kind, the cheapest first, and the present one.
+/// The fastest fit of each kind, the present one, and those that are told of: the fastest first. Before the end the
+/// cheapest by the estimate.
 std::vector<std::size_t> best_of_kinds(const SweepResult& result, std::size_t now) {
+    const auto rank = [&](std::size_t i) {
+        const SweepRow& row = result.rows[i];
+        const std::optional<FitTime>& time = row.time(Protocol::warm);
+        return std::pair(!time, time ? time->ns : row.estimate ? row.estimate->cost.mean : 0);
+    };
     std::map<mobb::TreeKind, std::size_t> best;
-    const auto cost = [&](std::size_t i) { return result.rows[i].cost.mean; };
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const auto at = best.try_emplace(result.rows[i].fit.tree, i).first;
-        if (cost(i) < cost(at->second)) at->second = i;
+        if (rank(i) < rank(at->second)) at->second = i;
     }
-    std::vector<std::size_t> out;
-    for (const auto& [kind, row] : best) out.push_back(row);
-    if (std::ranges::find(out, now) == out.end()) out.push_back(now);
-    std::ranges::stable_sort(out, {}, cost);
-    return out;
+    std::set<std::size_t> out{now};
+    for (const auto& [kind, row] : best) out.insert(row);
+    for (const SweepAdvice& advice : result.advice) {
+        if (advice.recommended) out.insert(*advice.recommended);
+        out.insert(advice.undecided.begin(), advice.undecided.end());
+    }
+    std::vector<std::size_t> sorted(out.begin(), out.end());
+    std::ranges::stable_sort(sorted, {}, rank);
+    return sorted;
 }
 
 void best_rows(Ui& ui, const SweepResult& result) {
     const std::vector<std::size_t> best = best_of_kinds(result, row_of_now(ui, result).value_or(result.present));
     const int count = static_cast<int>(best.size());
-    heading(ui, "KIND, SAMPLES A LEAF", "COST, TO NOW");
+    heading(ui, "FIT", is_measured(result) ? "WARM  COLD ns  MEMORY" : "ESTIMATED ns");
     rows(ui, "sweep rows", count, count, [&](int k) {
         const SweepRow& fit = result.rows[best[static_cast<std::size_t>(k)]];
+        std::string remark;
+        std::vector<double> exact;
+        if (is_measured(result)) {
+            for (const Protocol protocol : kProtocols) {
+                remark += formatted("%5s ", time_text(fit.time(protocol)).c_str());
+                if (fit.time(protocol)) exact.push_back(fit.time(protocol)->ns);
+            }
+            remark += formatted("%8s", bytes_text(fit.bytes).c_str());
+            exact.push_back(static_cast<double>(fit.bytes));
+        } else if (fit.estimate) {
+            remark = figure(fit.estimate->cost.mean, 3);
+            exact.push_back(fit.estimate->cost.mean);
+        }
         if (row(ui, {.mark = "sweep.row." + std::to_string(k),
                      .name = short_words(fit.fit, result.order.present),
-                     .remark = cost_text(fit.cost.mean) + "  " + change_text(ui, result, fit),
+                     .remark = remark,
                      .selected = fit.fit == ui.workspace.fitted().options(),
-                     .exact = {fit.cost.mean}}) &&
-            has_ended(result))
+                     .exact = exact}) &&
+            result.has_ended())
             apply_row(ui, fit);
         if (ImGui::IsItemHovered()) tell_row(result, fit);
     });
 }
 
-/// What is recommended, and the way to it.
-void recommendation(Ui& ui, const SweepInspector::Shown& shown) {
-    const SweepResult& result = *shown.rows;
+/// What is recommended where queries are asked so, and the way to it.
+void recommendation(Ui& ui, const SweepResult& result, Protocol protocol) {
+    const SweepAdvice& advice = result.of(protocol);
+    const std::string mark = protocol == Protocol::warm ? "sweep.why" : "sweep.why_cold";
     framed(ui, to_im(with_alpha(ui.style.palette.separated, 0.14f)), to_im(ui.style.palette.separated), [&] {
-        // "moving boxes, leaf 34: 30 % less than MOBB, leaf 10 (now)" and ", over 4096 placements; ..."
-        std::string why = result.why;
+        // "moving boxes, leaf 34: 70 ns +-1, 30 % less than MOBB, leaf 10 (now)" and ", over 4096 placements; ..."
+        std::string why = advice.why;
         const bool is_as_then = row_of_now(ui, result) == result.present;
         if (const std::size_t now = why.find(" (now)"); now != std::string::npos && !is_as_then)
             why.replace(now, 6, " (before)");
         const std::size_t end = std::min(why.find(", over "), why.size());
+        words(ui.style.quiet, protocol == Protocol::warm ? "warm: what a query reads is in the caches"
+                                                         : "cold: what a query reads is in no cache");
+        const ImU32 color =
+            advice.recommended ? to_im(readable(ui.style.palette.separated, ui.style.palette)) : ui.style.text;
         ImGui::PushFont(ui.style.title);
-        words(ui, to_im(readable(ui.style.palette.separated, ui.style.palette)), why.substr(0, end));
+        words(ui, color, why.substr(0, end));
         ImGui::PopFont();
-        ui.mark_only("sweep.why");
-        words(ui, ui.style.text, why.substr(std::min(end + 2, why.size())));
-        command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
+        ui.mark_only(mark);
+        if (end < why.size()) words(ui, ui.style.text, why.substr(end + 2));
+        if (protocol == Protocol::warm) {
+            command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
+        } else if (advice.recommended && advice.recommended != result.of(Protocol::warm).recommended &&
+                   small_button(ui, "Apply", "sweep.apply_cold", "Fits the trees so")) {
+            apply_row(ui, result.rows[*advice.recommended]);
+        }
     });
 }
 
@@ -226,12 +258,16 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
         const bool placed = ui.workspace.workload() == QueryWorkload::Kind::placements;
         words(ui.style.quiet, std::string("Tries all kinds of trees with leaves of 1 to 200 samples on the same ") +
                                   (placed ? "standard placements of all clips" : "queries of this scene") +
-                                  ", and says which costs least.");
+                                  ", measures the best on this machine, and says which is fastest.");
     } else if (!sweeps.is_of_scene()) {
         words(ui.style.warning, "The clips or queries have changed since fits were tried.");
         ui.mark_only("sweep.stale");
     } else if (!shown->rows->rows.empty()) {
-        if (has_ended(*shown->rows)) recommendation(ui, *shown);
+        if (is_measured(*shown->rows)) {
+            for (const Protocol protocol : kProtocols) recommendation(ui, *shown->rows, protocol);
+        } else if (shown->rows->has_ended()) {
+            words(ui.style.quiet, "Not measured in a picture, which is the same each time: nothing is recommended.");
+        }
         cost_chart(ui, *shown->rows);
         best_rows(ui, *shown->rows);
         words(ui, ui.style.quiet, asked_words(*shown), {shown->area, shown->offset});

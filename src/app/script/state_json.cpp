@@ -336,6 +336,23 @@ std::string instead(const std::string& pointer, const Json& is, const std::strin
            shortened(expected, kLongestText);
 }
 
+/// What a sweep says, as `mobbscope sweep` does. Null where none has ended for the scene as it is.
+Json sweep_json(const SweepInspector& sweeps) {
+    const auto shown = sweeps.result();
+    if (!shown || !shown->rows->has_ended() || !sweeps.is_of_scene()) return nullptr;
+    const auto fit = [&](std::size_t row) { return fit_text(shown->rows->rows[row].fit, {}); };
+    Json json;
+    for (const Protocol protocol : kProtocols) {
+        const SweepAdvice& advice = shown->rows->of(protocol);
+        Json& of = json[name(protocol)];
+        of["recommended"] = advice.recommended ? Json(fit(*advice.recommended)) : Json(nullptr);
+        of["undecided"] = Json::array();
+        for (const std::size_t row : advice.undecided) of["undecided"].push_back(fit(row));
+        of["why"] = advice.why;
+    }
+    return json;
+}
+
 }  // namespace
 
 Json state_json(const Session& session) {
@@ -359,6 +376,7 @@ Json state_json(const Session& session) {
         json["nodes"] = nodes_json(session.nodes);
     json["crowd"] = crowd_json(session.workspace, session.crowds);
     if (Json map = map_json(session.maps); !map.is_null()) json["map"] = std::move(map);
+    if (Json sweep = sweep_json(session.sweeps); !sweep.is_null()) json["sweep"] = std::move(sweep);
     json["excerpt"] = session.workspace.in_excerpt();
     json["time"] = or_null(session.workspace.view().time);
     json["playing"] = session.playback.playing();

@@ -12,7 +12,8 @@
 /// "sentence"}, the last two of the step. `undo` and `redo` are titles. Of a message `offer` is the command that it
 /// offers first, and `put_away` says that it is behind the bell; `unread` counts warnings and errors that nobody has
 /// looked at in the list. The three are left out where there is nothing to say. Screens add what there is of them
-/// (Screen::add_state).
+/// (Screen::add_state). Once a sweep has ended, `sweep` has for "warm" and "cold" queries what it says: {"recommended":
+/// a fit such as "mobb,leaf=20" or null, "undecided": fits, "why": "..."}.
 #pragma once
 
 #include <app/session/session.h>

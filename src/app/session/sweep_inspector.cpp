@@ -1,4 +1,5 @@
 #include <app/session/sweep_inspector.h>
+#include <explain/tree_cost.h>
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +9,6 @@
 namespace mobbscope::app {
 
 namespace {
-
-constexpr std::uint64_t kSeed = 1;
 
 std::vector<mobb::ClipPtr> clips_of(const Scene& scene) {
     std::vector<mobb::ClipPtr> out;
@@ -40,10 +39,11 @@ void SweepInspector::start() {
     running_ = sweep;
     job_ = std::make_unique<Job>(
         "Trying fits",
-        [sweep, order = order()](JobControl& control) -> Job::Finish {
+        [sweep, order = order(),
+         timer = options_.may_measure ? timer : FitTimer()](JobControl& control) -> Job::Finish {
             const std::vector<mobb::ClipPtr> clips = clips_of(*sweep->scene);
             const QueryWorkload workload = sweep->kind == QueryWorkload::Kind::placements
-                                               ? standard_workload(clips, order.most_queries, kSeed)
+                                               ? standard_workload(clips, order.most_queries, kCountedSeed)
                                                : scene_workload(*sweep->scene);
             const auto publish = [&](const std::shared_ptr<const SweepResult>& result) {
                 {
@@ -54,8 +54,8 @@ void SweepInspector::start() {
                 }
                 control.tell_news();
             };
-            const auto result =
-                std::make_shared<const SweepResult>(sweep_fits(clips, workload, order, progress_of(control), publish));
+            const auto result = std::make_shared<const SweepResult>(
+                sweep_fits(clips, workload, order, progress_of(control), publish, timer));
             publish(result);
             if (order.time_scale.values.empty()) return {};
             auto curves = std::make_shared<const std::vector<LevelCurve>>(

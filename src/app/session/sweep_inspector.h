@@ -33,6 +33,8 @@ class SweepInspector {
     bool over_time_scale = false;
     bool shows_volume = true;  ///< of the levels over the time scale; else their cost
 
+    FitTimer timer = time_queries;
+
     /// What a sweep tries now.
     SweepOrder order() const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,11 @@ bool varies(Over over, const SweepResult& result) {
     });
 }
 
+/// Of blocks nothing is estimated, and trees of one level have no leaves of some size.
+bool is_drawn(const SweepResult& result, const SweepRow& row) {
+    return row.estimate && row.fit.levels == result.order.present.levels;
+}
+
 /// Kinds have the same colours in all charts.
 Chart::Series series_of(mobb::TreeKind kind) {
     return {std::string(mobb::info(kind).label), {}, static_cast<std::size_t>(kind)};
@@ -39,25 +45,26 @@ SweepChart sweep_chart(const SweepResult& result, std::optional<std::size_t> now
     const Over over = !varies(Over::leaf, result) && varies(Over::time_scale, result) ? Over::time_scale : Over::leaf;
     out.chart.x = over == Over::leaf ? Chart::Axis{"samples of a leaf", "", Chart::Scale::factors}
                                      : Chart::Axis{"time scale", "m/s", Chart::Scale::factors};
-    out.chart.y = {"a query", std::string(unit_of(result.order.cost)), Chart::Scale::factors};
+    out.chart.y = {"estimated", std::string(kEstimatedUnit), Chart::Scale::factors};
     // By kind and value the cheapest row.
     std::map<mobb::TreeKind, std::map<double, std::size_t>> cheapest;
     double least = value_of(over, result.rows.front().fit), most = least;
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
         const SweepRow& row = result.rows[i];
+        if (!is_drawn(result, row)) continue;
         const double value = matters(over, row.fit.tree) ? value_of(over, row.fit) : 0;
         if (value > 0) {
             least = std::min(least, value);
             most = std::max(most, value);
         }
         const auto at = cheapest[row.fit.tree].try_emplace(value, i).first;
-        if (row.cost.mean < result.rows[at->second].cost.mean) at->second = i;
+        if (row.estimate->cost.mean < result.rows[at->second].estimate->cost.mean) at->second = i;
     }
     for (const auto& [kind, rows] : cheapest) {
         Chart::Series series = series_of(kind);
         out.rows.emplace_back();
         const auto add = [&](double value, std::size_t row) {
-            series.points.push_back({value, result.rows[row].cost.mean});
+            series.points.push_back({value, result.rows[row].estimate->cost.mean});
             out.rows.back().push_back(row);
         };
         for (const auto& [value, row] : rows) {
@@ -71,14 +78,14 @@ SweepChart sweep_chart(const SweepResult& result, std::optional<std::size_t> now
         out.chart.series.push_back(std::move(series));
     }
     const auto mark = [&](const char* text, std::size_t row, bool recommended) {
+        if (!is_drawn(result, result.rows[row])) return;
         const mobb::FitOptions& fit = result.rows[row].fit;
         out.chart.marks.push_back({text, matters(over, fit.tree) ? value_of(over, fit) : std::sqrt(least * most),
-                                   result.rows[row].cost.mean, recommended});
+                                   result.rows[row].estimate->cost.mean, recommended});
     };
-    const bool ended = !result.why.empty();
-    const bool is_best = ended && now == result.recommended;
-    if (now && !is_best) mark("now", *now, false);
-    if (ended) mark(is_best ? "now, and best" : "best", result.recommended, true);
+    const std::optional<std::size_t> best = result.of(Protocol::warm).recommended;
+    if (now && now != best) mark("now", *now, false);
+    if (best) mark(now == best ? "now, and best" : "best", *best, true);
     return out;
 }
 

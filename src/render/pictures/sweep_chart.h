@@ -1,4 +1,4 @@
-/// What fits cost, as a chart: over the samples of a leaf, a line for each kind of tree.
+/// What fits are estimated to cost, as a chart: over the samples of a leaf, a line for each kind of tree.
 #pragma once
 
 #include <explain/fit_sweep.h>
@@ -16,8 +16,8 @@ struct SweepChart {
 };
 
 /// Each line has the cheapest fits of its kind; where leaves are not varied but time scales are, over these. A kind to
-/// which neither matters is a level line. The row `now` is marked, if there is one, and once the sweep has ended the
-/// recommended one.
+/// which neither matters is a level line, blocks have none. The row `now` is marked, if there is one, and once the
+/// sweep has ended the one that is recommended for warm queries: where they stand in the estimate.
 SweepChart sweep_chart(const SweepResult& result, std::optional<std::size_t> now);
 
 /// What a level of trees does over the time scale of UMOBB, beside MOBB and moving boxes, which have none.
