@@ -40,9 +40,6 @@ std::string brief(double value);
 /// A figure for people: so many significant digits, and all those before the point: "1.235", "12346".
 std::string figure(double value, int digits = 4);
 
-/// Two numbers as `usual` writes them, or with as many digits as tell them apart where they differ.
-std::pair<std::string, std::string> told_apart(double one, double other, std::string (*usual)(double));
-
 /// How many there are now, against before: "3.1 times as many", "13 times fewer"; empty where they are nearly as many,
 /// or one of them is 0 or less.
 std::string ratio_words(double now, double before);
@@ -57,9 +54,6 @@ std::string proven_words(double value, const char* unit);
 
 /// As std::printf writes it.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
-
-/// With a capital in front, where an ASCII letter stands there.
-std::string as_sentence(std::string text);
 
 /// "1 sample", "12 samples".
 std::string counted(std::integral auto count, std::string_view singular, std::string_view plural) {

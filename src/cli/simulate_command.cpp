@@ -161,18 +161,21 @@ QueriedBy queried_by(const FitArguments& fit) {
     return fit.tree.value_or(mobb::TreeKind::blocks) == mobb::TreeKind::blocks ? QueriedBy::blocks : QueriedBy::trees;
 }
 
+/// Of a move that is not turned.
+const std::string& clip_name(const Scene& run, int move) {
+    return run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(move)].clip)].name;
+}
+
 void write_played(JsonWriter& out, const char* key, const MoveSet& moves, const PlannedMove& move, PlayKind kind,
                   const mobb::Placement& at, const std::vector<PlannedMove>& plan) {
-    const Scene& run = moves.fitted().scene();
-    const GraphMove& of = run.graph->moves[static_cast<std::size_t>(move.move)];
     out.begin_object(key);
-    out.members("clip", run.clips[static_cast<std::size_t>(of.clip)].name, "move", move.move, "turn_deg", move.turn_deg,
+    out.members("clip", clip_name(moves.fitted().scene(), move.move), "move", move.move, "turn_deg", move.turn_deg,
                 "kind", name(kind), "translate", at.translate, "rotate_deg", at.rotate_deg, "start", at.start);
     out.list("plan", plan, [&](const PlannedMove& next) { out.tuple(next.move, next.turn_deg); });
     out.end_object();
 }
 
-void write_side(JsonWriter& out, const char* key, const MoveSet& moves, const AskedSide& side) {
+void write_asked(JsonWriter& out, const char* key, const MoveSet& moves, const AskedSide& side) {
     out.begin_object(key, JsonWriter::Layout::row);
     out.members("agent", moves.fitted().scene().crowd->agents[static_cast<std::size_t>(side.agent)].name, "clip",
                 name_of(moves, side), "translate", side.placement.translate, "rotate_deg", side.placement.rotate_deg,
@@ -183,8 +186,8 @@ void write_side(JsonWriter& out, const char* key, const MoveSet& moves, const As
 void write_query(JsonWriter& out, const MoveSet& moves, const DecidingQuery& query) {
     const DecidingTrace traced = trace_of(query, moves.fitted().options());
     out.begin_object("query");
-    write_side(out, "a", moves, query.candidate);
-    write_side(out, "b", moves, query.other);
+    write_asked(out, "a", moves, query.candidate);
+    write_asked(out, "b", moves, query.other);
     out.member("collides", traced.recorded.contact.has_value());
     out.key("contact");
     write_contact(out, traced.recorded.contact);
@@ -200,7 +203,8 @@ void write_difference(JsonWriter& out, const MoveSet& moves, const RunDifference
     const CrowdAgent& agent = run.crowd->agents[static_cast<std::size_t>(remade.agent)];
     const Play& play = agent.plays[static_cast<std::size_t>(remade.play)];
     out.begin_object("difference");
-    out.members("agent", agent.name, "play", remade.play, "time", choice.time);
+    out.members("agent", agent.name, "play", remade.play, "time", choice.time, "due",
+                difference.due.value_or(choice.time));
     write_played(out, "then", moves, moves.origin(play.move), play.kind, play.placement, play.plan);
     if (choice.candidates.empty()) {
         out.key("now");
@@ -214,8 +218,8 @@ void write_difference(JsonWriter& out, const MoveSet& moves, const RunDifference
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
         const Candidate& candidate = choice.candidates[i];
         out.begin_object(JsonWriter::Layout::row);
-        out.members("move", candidate.move, "turn_deg", candidate.turn_deg, "outcome",
-                    outcome_words(outcome_of(choice, i)));
+        out.members("clip", clip_name(run, candidate.move), "move", candidate.move, "turn_deg", candidate.turn_deg,
+                    "outcome", outcome_words(outcome_of(choice, i)));
         if (const auto& blocker = candidate.blocker) {
             out.members("meets", run.crowd->agents[static_cast<std::size_t>(blocker->agent)].name, "contact_time",
                         blocker->contact.time);
@@ -223,7 +227,12 @@ void write_difference(JsonWriter& out, const MoveSet& moves, const RunDifference
         out.end_object();
     }
     out.end_array();
-    out.member("decides", difference.other ? std::optional(difference.other->candidate) : std::nullopt);
+    out.key("decides");
+    if (difference.other) {
+        out.row("candidate", difference.other->candidate, "about", difference.other->about_way ? "way" : "collision");
+    } else {
+        out.null();
+    }
     if (difference.query) {
         write_query(out, moves, *difference.query);
     } else {

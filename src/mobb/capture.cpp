@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -23,6 +24,23 @@
 #include <utility>
 
 namespace mobb {
+
+std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add_byte = [&hash](std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3; };
+    const auto add = [&](double number) {
+        const auto bits = std::bit_cast<std::uint64_t>(number);
+        for (int shift = 0; shift < 64; shift += 8) add_byte(bits >> shift & 0xff);
+    };
+    add(dt);
+    for (const Disk& disk : samples) {
+        add(disk.x);
+        add(disk.y);
+        add(disk.r);
+    }
+    for (const char letter : name(motion)) add_byte(static_cast<unsigned char>(letter));
+    return hash;
+}
 
 namespace {
 

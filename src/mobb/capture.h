@@ -24,6 +24,11 @@
 
 namespace mobb {
 
+/// The digest that a captured clip carries: FNV-1a of 64 bits over the little-endian bytes of dt, of x, y and r of each
+/// sample, and the name of the motion. Allocates nothing.
+std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept;
+inline std::uint64_t digest(const Clip& clip) noexcept { return digest(clip.dt(), clip.samples(), clip.motion()); }
+
 /// A clip where a query places it. Keeps the clip alive.
 struct CapturedSide {
     ClipPtr clip;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -42,23 +41,6 @@ Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
         if (!within(d.r, kMaxLength) || d.r < 0) fail("r must be finite, not negative and within 1e9 m");
         reach_ = std::max(reach_, std::abs(d.x) + std::abs(d.y) + d.r);
     }
-}
-
-std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto add_byte = [&hash](std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3; };
-    const auto add = [&](double number) {
-        const auto bits = std::bit_cast<std::uint64_t>(number);
-        for (int shift = 0; shift < 64; shift += 8) add_byte(bits >> shift & 0xff);
-    };
-    add(dt);
-    for (const Disk& disk : samples) {
-        add(disk.x);
-        add(disk.y);
-        add(disk.r);
-    }
-    for (const char letter : name(motion)) add_byte(static_cast<unsigned char>(letter));
-    return hash;
 }
 
 void refuse_placement(glm::dvec2, double rotate_deg, double start, double most_start) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -97,11 +96,6 @@ class Clip {
 };
 
 using ClipPtr = std::shared_ptr<const Clip>;
-
-/// The digest that captures carry of a clip: FNV-1a of 64 bits over the little-endian bytes of dt, of x, y and r of
-/// each sample, and the name of the motion. Allocates nothing.
-std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept;
-inline std::uint64_t digest(const Clip& clip) noexcept { return digest(clip.dt(), clip.samples(), clip.motion()); }
 
 /// Places a clip in the world: rotate about the clip's origin, then translate, and start at a global time.
 struct Placement {

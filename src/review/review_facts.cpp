@@ -1,5 +1,6 @@
 #include <app/commands/command.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <review/review_panels.h>
 

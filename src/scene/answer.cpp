@@ -1,3 +1,4 @@
+#include <base/sentences.h>
 #include <base/text.h>
 #include <scene/answer.h>
 #include <scene/scene_json.h>

@@ -1,11 +1,13 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
 #include <base/file.h>
 #include <base/json.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <import/clip/held_steps.h>
 #include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/import.h>
+#include <mobb/capture.h>
 #include <scene/arrangement.h>
 #include <scene/clip_import.h>
 #include <scene/crowd_run.h>
@@ -321,10 +323,11 @@ class SceneReader {
             const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(i)];
             const SceneClip& clip = scene_.clips[static_cast<std::size_t>(move.clip)];
             if (!move.turned || !clip.source || (clip.turn && clip.turn->deg == move.turned->deg)) continue;
-            const std::string now = clip.turn ? "by " + brief(clip.turn->deg) + " degrees" : "not at all";
+            const auto [is, wanted] = told_apart(clip.turn ? clip.turn->deg : 0, move.turned->deg, brief);
+            const std::string now = clip.turn ? "by " + is + " degrees" : "not at all";
             const JsonPlace place = moves[i];
             place.require("clip").fail("the clip " + in_quotes(clip.name) + " turns " + now + ", the move by " +
-                                       brief(move.turned->deg) + " degrees; mend the clip's turn");
+                                       wanted + " degrees; mend the clip's turn");
         }
     }
 

@@ -1,5 +1,6 @@
 #include <base/base64.h>
 #include <base/markup.h>
+#include <base/sentences.h>
 #include <base/text.h>
 
 #include <gtest/gtest.h>

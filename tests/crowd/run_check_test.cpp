@@ -138,6 +138,19 @@ TEST(RunCheck, TheAnswerThatDecidesIsFound) {
     EXPECT_GT(wrong_hits + wrong_misses, 5);
 }
 
+TEST(RunCheck, AChoiceAtAnotherTimeIsADifference) {
+    const CheckedRun checked(walker_scene());
+    CrowdRun edited = checked.run();
+    std::vector<Play>& plays = edited.agents[4].plays;
+    const double was = plays.back().chosen_at;
+    plays.back().chosen_at = std::max(plays[plays.size() - 2].chosen_at, was - 0.1);
+    const RunCheck found = checked.check(edited);
+    ASSERT_TRUE(found.difference);
+    EXPECT_EQ(found.difference->remade.agent, 4);
+    ASSERT_TRUE(found.difference->due);
+    EXPECT_NEAR(*found.difference->due, was, 1e-9);
+}
+
 TEST(RunCheck, AFirstPlayElsewhereIsADifference) {
     const CheckedRun checked(walker_scene());
     CrowdRun edited = checked.run();

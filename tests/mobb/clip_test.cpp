@@ -5,17 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace mobb {
 namespace {
-
-// By another program: FNV-1a over the bytes that the contract names.
-TEST(ClipDigest, IsThatOfItsNumbersAndMotion) {
-    const std::vector<Disk> samples{{1, 2, 0.5}, {-0.0, 1e-3, 0}};
-    EXPECT_EQ(digest(0.25, samples, Motion::held), 0x7110979caab07a4du);
-    EXPECT_EQ(digest(Clip(0.25, samples, Motion::linear)), 0x1306d665644cc3b7u);
-}
 
 TEST(Clip, RefusesWhatIsNotAMotion) {
     const double nan = std::numeric_limits<double>::quiet_NaN();

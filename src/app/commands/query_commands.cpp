@@ -4,6 +4,7 @@
 #include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
+#include <mobb/capture.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <app/panels/ruler.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>

@@ -1,6 +1,7 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>

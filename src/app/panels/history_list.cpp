@@ -2,7 +2,7 @@
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
-#include <base/text.h>
+#include <base/sentences.h>
 
 #include <string>
 

@@ -3,6 +3,7 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>

@@ -11,6 +11,7 @@ namespace mobbscope {
 
 namespace {
 
+constexpr double kSameTime = 1e-6;          // seconds: as precisely as plays must join
 constexpr std::size_t kMostSupposed = 300;  // candidates whose answers are tried the other way round
 
 /// Metres between the disks of two motions where they are nearest; infinite where they share no time.
@@ -51,8 +52,12 @@ class RunChecker {
             // What an edited run plans may end where the next play begins, and is withdrawn only then.
             reservations_.forget_before(point.time - std::max(1.0, 1e-9 * std::abs(point.time)));
             const Play& play = play_of(point.agent, point.play);
-            if (!comes_out_as(play, choose(moves_, reservations_, run_, point, search_))) {
+            const double due =
+                std::max(0.0, point.before.placement.start + moves_.until_joint(point.before.move) - run_.ahead);
+            const bool in_time = std::abs(point.time - due) <= kSameTime;
+            if (!in_time || !comes_out_as(play, choose(moves_, reservations_, run_, point, search_))) {
                 out.difference = explain(point);
+                if (!in_time) out.difference->due = due;
                 return out;
             }
             reservations_.reserve(point.agent, point.play, play);

@@ -28,6 +28,7 @@ struct DecidingQuery {
 struct RunDifference {
     FollowedChoice remade;                 ///< with clips and blockers; of a first play where it is placed, if anywhere
     std::optional<std::size_t> played{};   ///< the candidate that the run plays; none: it is none of them
+    std::optional<double> due{};           ///< global seconds: when the simulator chooses, if that is another time
     std::optional<OtherAnswer> other{};    ///< with which the run's move is taken; none: no single answer is known
     std::optional<DecidingQuery> query{};  ///< of that answer, if it is about a collision
 };
@@ -38,7 +39,8 @@ struct RunCheck {
 };
 
 /// Makes every play of a run again, in the order in which they were chosen, each from what the run has all agents
-/// committed to by then; ends at the first that does not come out (comes_out_as). `progress` is told of plays.
+/// committed to by then; ends at the first that does not come out (comes_out_as), or
+/// was chosen at another time. `progress` is told of plays.
 /// `moves`: of a scene with a crowd.
 RunCheck check_run(const MoveSet& moves, const Progress& progress = {});
 

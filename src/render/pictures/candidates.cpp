@@ -1,3 +1,4 @@
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/certificate.h>
 #include <explain/clearance.h>
@@ -304,8 +305,10 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
     } else {
         const Candidate& taken = choice.candidates[choice.taken];
         text += named({taken.move, taken.turn_deg}, choice.kind);
-        if (taken.played == play.move && choice.kind == play.kind)
-            text += candidate_played(play, choice) == choice.taken ? ", with another plan" : ", elsewhere";
+        if (taken.played == play.move && choice.kind == play.kind) {
+            if (candidate_played(play, choice) != choice.taken) text += ", elsewhere";
+            if (choice.plan != play.plan) text += ", with another plan";
+        }
     }
     return text +
            ": seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong";
@@ -340,6 +343,10 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
                                                 : "what it plays is none of the candidates"));
     out.push_back("now: " + candidate_sentence(run, choice, choice.taken));
     out.push_back(choice_sentence(run, remade));
+    if (difference.due) {
+        const auto [then, now] = told_apart(choice.time, *difference.due, to_thousandth);
+        out.push_back("chosen at " + then + " s, where the simulator chooses at " + now + " s");
+    }
     if (difference.played == choice.taken) return out;
     if (!difference.other) {
         out.push_back("no single other answer about a candidate leads to what it plays");
