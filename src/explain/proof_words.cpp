@@ -20,7 +20,7 @@ std::string promised(double value, const char* unit) {
 std::string result(const Certificate& certificate) {
     if (certificate.contact) return "No contact before " + with_unit(certificate.contact->time, "s") + ".";
     const double gap = std::ranges::min(certificate.tiles, {}, &Tile::gap).gap;
-    return gap < kWorthNaming ? "They never collide." : "Never closer than " + promised(gap, "m") + ".";
+    return gap < kWorthNaming ? "They never collide." : "Proven bound: at least " + promised(gap, "m") + " apart.";
 }
 
 std::string cost(std::span<const TraversalEnd> ends) {

@@ -8,8 +8,8 @@
 
 namespace mobbscope {
 
-/// "Never closer than 0.183 m. Proof: 2 lines over 12.40 s; the trees needed 5 box pairs and 2 runs of samples."
-/// Without `ends` nothing is said of the trees.
+/// "Proven bound: at least 0.183 m apart. Proof: 2 lines over 12.40 s; the trees needed 5 box pairs and 2 runs of
+/// samples." Without `ends` nothing is said of the trees.
 std::string proof_words(const Certificate& certificate, std::span<const TraversalEnd> ends);
 
 /// "Both radii may grow by 0.091 m; B may start up to 0.400 s earlier or later." `b`: B's name.

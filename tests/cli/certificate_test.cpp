@@ -83,8 +83,9 @@ TEST_F(Certificates, AreTaken) {
     const Result run = verify(proof.dump());
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    EXPECT_NE(run.out.find("0: A and B never collide. Never closer than 0.300 m. Proof: 1 line over 2.000 s.\n"),
-              std::string::npos)
+    EXPECT_NE(
+        run.out.find("0: A and B never collide. Proven bound: at least 0.300 m apart. Proof: 1 line over 2.000 s.\n"),
+        std::string::npos)
         << run.out;
     EXPECT_NE(run.out.find("No contact before 1.500 s. Proof: 1 line over 1.500 s.\n"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("2 of 2 queries proven\n"), std::string::npos) << run.out;
@@ -179,9 +180,10 @@ TEST_F(Certificates, AreOfOneSceneAlone) {
 TEST_F(Certificates, AreSaidInWords) {
     const Result run = run_program({"query", path("scene.json"), "--proof"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_NE(run.out.find("0: A and B never collide.\n   Never closer than 0.300 m. Proof: 1 line over 2.000 s; the "
-                           "trees needed 1 box pair.\n   Both radii may grow by 0.150 m; B may start at any time.\n"
-                           "   Tests: "),
+    EXPECT_NE(run.out.find(
+                  "0: A and B never collide.\n   Proven bound: at least 0.300 m apart. Proof: 1 line over 2.000 s; the "
+                  "trees needed 1 box pair.\n   Both radii may grow by 0.150 m; B may start at any time.\n"
+                  "   Tests: "),
               std::string::npos)
         << run.out;
     EXPECT_NE(run.out.find("   No contact before 1.500 s. Proof: 1 line over 1.500 s; the trees needed 1 run of "

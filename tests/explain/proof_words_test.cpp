@@ -40,10 +40,10 @@ TEST(TraversalEnds, PartitionTheCommonTime) {
 TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
     const std::vector<TraversalEnd> ends{{0, 4, true, 3}, {4, 5, false, 4}, {5, 12, true, 9}};
     Certificate miss{std::nullopt, {{0, 4, {1, 0}, 0, 0.5}, {4, 12.4, {0, 1}, 0, 0.1839}}};
-    EXPECT_EQ(
-        proof_words(miss, ends),
-        "Never closer than 0.183 m. Proof: 2 lines over 12.40 s; the trees needed 2 box pairs and 1 run of samples.");
-    EXPECT_EQ(proof_words(miss, {}), "Never closer than 0.183 m. Proof: 2 lines over 12.40 s.");
+    EXPECT_EQ(proof_words(miss, ends),
+              "Proven bound: at least 0.183 m apart. Proof: 2 lines over 12.40 s; the trees needed 2 box pairs and 1 "
+              "run of samples.");
+    EXPECT_EQ(proof_words(miss, {}), "Proven bound: at least 0.183 m apart. Proof: 2 lines over 12.40 s.");
     miss.tiles.back().gap = 1e-12;
     EXPECT_EQ(proof_words(miss, std::vector{ends[0]}),
               "They never collide. Proof: 2 lines over 12.40 s; the trees needed 1 box pair.");
