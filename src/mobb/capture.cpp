@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -23,6 +24,23 @@
 #include <utility>
 
 namespace mobb {
+
+std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    const auto add_byte = [&hash](std::uint64_t byte) { hash = (hash ^ byte) * 0x100000001b3; };
+    const auto add = [&](double number) {
+        const auto bits = std::bit_cast<std::uint64_t>(number);
+        for (int shift = 0; shift < 64; shift += 8) add_byte(bits >> shift & 0xff);
+    };
+    add(dt);
+    for (const Disk& disk : samples) {
+        add(disk.x);
+        add(disk.y);
+        add(disk.r);
+    }
+    for (const char letter : name(motion)) add_byte(static_cast<unsigned char>(letter));
+    return hash;
+}
 
 namespace {
 
@@ -93,7 +111,11 @@ class SceneText {
 
 void add_clip(SceneText& out, const Clip& clip) {
     out.add("{\n      \"dt\": ", clip.dt(), ",\n      \"motion\": \"", name(clip.motion()),
-            "\",\n      \"samples\": [");
+            "\",\n      \"digest\": \"");
+    const std::uint64_t hash = digest(clip);
+    for (int shift = 60; shift >= 0; shift -= 4)
+        out.add(std::string_view("0123456789abcdef").substr(hash >> shift & 15, 1));
+    out.add("\",\n      \"samples\": [");
     const char* separator = "";
     for (const Disk& disk : clip.samples()) {
         out.add(separator, "\n        [", disk.x, ", ", disk.y, ", ", disk.r, "]");

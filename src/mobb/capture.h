@@ -2,10 +2,10 @@
 /// where its answer differs. One query at a time, or a ring of the last ones, also when the program crashes. POSIX
 /// only.
 ///
-/// A clip is written with its samples, held or linear; the two sides of query 3 are called A3 and B3. The fit of a file
-/// is one for all its queries, which changes no answer: that of the last query's A. A chain is captured as its
-/// `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the angle at which it
-/// was placed, so you give it.
+/// A clip is written with its samples, held or linear, and a digest of them; the two sides of query 3 are called A3 and
+/// B3. The fit of a file is one for all its queries, which changes no answer: that of the last query's A. A chain is
+/// captured as its `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the
+/// angle at which it was placed, so you give it.
 #pragma once
 
 #include <mobb/query.h>
@@ -23,6 +23,11 @@
 #include <vector>
 
 namespace mobb {
+
+/// The digest that a captured clip carries: FNV-1a of 64 bits over the little-endian bytes of dt, of x, y and r of each
+/// sample, and the name of the motion. Allocates nothing.
+std::uint64_t digest(double dt, std::span<const Disk> samples, Motion motion) noexcept;
+inline std::uint64_t digest(const Clip& clip) noexcept { return digest(clip.dt(), clip.samples(), clip.motion()); }
 
 /// A clip where a query places it. Keeps the clip alive.
 struct CapturedSide {

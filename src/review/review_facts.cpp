@@ -1,10 +1,10 @@
 #include <app/commands/command.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <review/review_panels.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -17,12 +17,7 @@ using picture_tests::CaseOutcome;
 
 namespace {
 
-std::string headline_of(const ReviewCase& one) {
-    if (one.accepted) return "Accepted";
-    std::string words = outcome_word(one);
-    words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-    return words;
-}
+std::string headline_of(const ReviewCase& one) { return one.accepted ? "Accepted" : as_sentence(outcome_word(one)); }
 
 /// Of one that passed, whether the picture is the very golden.
 std::string passed_sentence(const ReviewCase& one) {

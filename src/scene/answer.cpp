@@ -1,3 +1,4 @@
+#include <base/sentences.h>
 #include <base/text.h>
 #include <scene/answer.h>
 #include <scene/scene_json.h>
@@ -25,6 +26,22 @@ bool agrees(const mobb::Contact& expected, const mobb::Contact& found) {
            agrees(expected.radii, found.radii);
 }
 
+std::string metres_text(double value) { return figure(value); }
+
+/// Adds what of two contacts differs and is not seen in their sentences.
+void add_differences(std::string& out, const mobb::Contact& expected, const mobb::Contact& found) {
+    const auto add = [&](const char* what, double one, double other, const char* unit, std::string (*usual)(double)) {
+        if (agrees(one, other)) return;
+        const auto [before, now] = told_apart(one, other, usual);
+        if (out.ends_with('.')) out.pop_back();
+        out += std::string("; ") + what + ": expected " + before + unit + ", now " + now + unit;
+    };
+    const bool is_seen = to_thousandth(expected.time) != to_thousandth(found.time);
+    if (!is_seen) add("time", expected.time, found.time, " s", to_thousandth);
+    add("distance", expected.distance, found.distance, " m", metres_text);
+    add("sum of radii", expected.radii, found.radii, " m", metres_text);
+}
+
 /// Of collision and contact.
 std::optional<std::string> other_answer(const SceneQuery& query, const Answer& answer) {
     const Expectation& expect = *query.expect;
@@ -34,9 +51,11 @@ std::optional<std::string> other_answer(const SceneQuery& query, const Answer& a
     if (same) return std::nullopt;
     if (!*expect.collides) return "expected no collision, but " + sentence(query, answer.contact);
     if (!expect.contact) return "expected a collision, but " + sentence(query, answer.contact);
-    return "expected contact at " + to_thousandth(expect.contact->time) + " s between samples " +
-           std::to_string(expect.contact->a_sample) + " and " + std::to_string(expect.contact->b_sample) + ", but " +
-           sentence(query, answer.contact);
+    std::string out = "expected contact at " + to_thousandth(expect.contact->time) + " s between samples " +
+                      std::to_string(expect.contact->a_sample) + " and " + std::to_string(expect.contact->b_sample) +
+                      ", but " + sentence(query, answer.contact);
+    if (answer.contact) add_differences(out, *expect.contact, *answer.contact);
+    return out;
 }
 
 }  // namespace
@@ -92,13 +111,11 @@ std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>
     const std::string a = cleaned(query.a.name);
     const std::string b = cleaned(query.b.name);
     if (!contact) return a + " and " + b + " never collide.";
-    // Two that hardly touch need more digits to be told apart.
-    const bool close = figure(contact->distance) == figure(contact->radii);
-    const auto metres = [close](double value) { return close ? brief(value) : figure(value); };
+    // Two that hardly touch need more digits.
+    const auto [distance, radii] = told_apart(contact->distance, contact->radii, metres_text);
     return a + " and " + b + " collide at " + to_thousandth(contact->time) + " s: sample " +
            std::to_string(contact->a_sample) + " of " + a + " and sample " + std::to_string(contact->b_sample) +
-           " of " + b + " are " + metres(contact->distance) + " m apart, their radii add up to " +
-           metres(contact->radii) + " m.";
+           " of " + b + " are " + distance + " m apart, their radii add up to " + radii + " m.";
 }
 
 bool expects_tests(const SceneQuery& query) {

@@ -113,6 +113,7 @@ ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion) {
     const mobb::Clip& was = *made.is.clip;
     made.is.clip = std::make_shared<const mobb::Clip>(
         was.dt(), std::vector<mobb::Disk>(was.samples().begin(), was.samples().end()), motion);
+    made.is.digest.reset();
     made.is.facts.warnings.clear();
     warn_of_long_held_step(*made.is.clip, made.is.facts.warnings);
     return made;

@@ -1,3 +1,4 @@
+#include <base/sentences.h>
 #include <base/text.h>
 #include <scene/clip_turn.h>
 #include <scene/crowd_run.h>
@@ -136,8 +137,9 @@ class CrowdReader {
         const double seconds = turn_at_rate(turn, run_.turn_rate).seconds;
         const double lasts = clip_of(move).until_next();
         if (seconds <= lasts) return;
-        place.fail("the move lasts " + brief(lasts) + " s, but at " + brief(run_.turn_rate) + " degrees/s a turn by " +
-                   brief(turn) + " degrees takes " + brief(seconds) + " s; turn less");
+        const auto [has, takes] = told_apart(lasts, seconds, brief);
+        place.fail("the move lasts " + has + " s, but at " + brief(run_.turn_rate) + " degrees/s a turn by " +
+                   brief(turn) + " degrees takes " + takes + " s; turn less");
     }
 
     /// Where a planned move leads that turns on its way.

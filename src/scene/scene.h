@@ -48,8 +48,13 @@ struct SceneClip {
     double start = 0;  ///< seconds: when it starts among the tracks of its source, see SourceFacts::t0
     std::shared_ptr<const ClipWarp> warp{};  ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
     std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
+    /// Of inline samples of a capture: mobb::digest of what was captured; none: nobody says. See kDigest.
+    std::optional<std::uint64_t> digest{};
     friend bool operator==(const SceneClip&, const SceneClip&) = default;
 };
+
+/// ImportWarning::option of the warning that a clip's samples are not those of its digest.
+inline constexpr std::string_view kDigest = "digest";
 
 /// One side of a query: a clip and where it is placed.
 struct PlacedAgent {

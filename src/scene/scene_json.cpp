@@ -2,6 +2,8 @@
 #include <scene/scene_json.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cinttypes>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -120,6 +122,17 @@ mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions fit) {
 void write_fit(JsonWriter& out, const mobb::FitOptions& fit) {
     out.row("tree", mobb::name(fit.tree), "leaf", fit.leaf, "levels", fit.levels, "axes", mobb::name(fit.axes),
             "time_scale", fit.time_scale);
+}
+
+std::string digest_text(std::uint64_t digest) { return formatted("%016" PRIx64, digest); }
+
+std::uint64_t read_digest(const JsonPlace& place) {
+    const std::string& text = place.string();
+    std::uint64_t digest = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 16 || std::from_chars(text.data(), end, digest, 16).ptr != end)
+        place.fail(in_quotes(text) + " is not 16 hexadecimal digits; remove it where nobody knows it");
+    return digest;
 }
 
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace mobbscope {
@@ -27,6 +28,11 @@ void refuse_old_tree_names(const JsonPlace& place);
 /// Throws InputError.
 mobb::FitOptions read_fit(const JsonPlace& place, mobb::FitOptions base = {});
 void write_fit(JsonWriter& out, const mobb::FitOptions& fit);
+
+/// mobb::digest as files have it: 16 hexadecimal digits.
+std::string digest_text(std::uint64_t digest);
+/// Throws InputError.
+std::uint64_t read_digest(const JsonPlace& place);
 
 /// An object, or null for no contact.
 void write_contact(JsonWriter& out, const std::optional<mobb::Contact>& contact);

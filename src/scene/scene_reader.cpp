@@ -1,10 +1,12 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
 #include <base/file.h>
 #include <base/json.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <import/clip/held_steps.h>
 #include <import/clip/sampling.h>
 #include <import/import.h>
+#include <mobb/capture.h>
 #include <scene/arrangement.h>
 #include <scene/clip_import.h>
 #include <scene/crowd_run.h>
@@ -127,9 +129,15 @@ void append(std::vector<ImportWarning>& to, const std::vector<ImportWarning>& fr
     to.insert(to.end(), from.begin(), from.end());
 }
 
-mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+/// Of inline samples.
+mobb::Motion read_motion(const JsonPlace& clip) {
     mobb::Motion motion = mobb::Motion::held;
-    if (const auto key = place.find("motion")) read_option(*key, "motion", motion);
+    if (const auto key = clip.find("motion")) read_option(*key, "motion", motion);
+    return motion;
+}
+
+mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+    const mobb::Motion motion = read_motion(place);
     const JsonPlace dt = place.require("dt");
     const double seconds = dt.number();
     const JsonPlace list = place.require("samples");
@@ -261,6 +269,7 @@ class SceneReader {
         keys.push_back("warp");
         keys.push_back("turn");
         keys.push_back("samples");
+        keys.push_back("digest");
         place.allow_only(keys);
         if (place.find("source")) {
             read_source(place, clip);
@@ -269,11 +278,23 @@ class SceneReader {
             if (const auto turn = place.find("turn"))
                 turn->fail("only a clip with a source is turned; turn the samples, and remove this");
             clip.clip = read_samples(place, overrides_.motion);
+            if (const auto digest = place.find("digest")) check_digest(read_digest(*digest), place, clip);
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
         return clip;
+    }
+
+    /// Of the samples with the motion that the file says.
+    static void check_digest(std::uint64_t said, const JsonPlace& place, SceneClip& clip) {
+        const mobb::Motion motion = read_motion(place);
+        const std::uint64_t is = mobb::digest(clip.clip->dt(), clip.clip->samples(), motion);
+        if (is != said)
+            clip.facts.warnings.push_back({"its samples are not those that were captured: their digest is " +
+                                               digest_text(is) + ", and the file says " + digest_text(said),
+                                           std::string(kDigest)});
+        if (clip.clip->motion() == motion) clip.digest = said;
     }
 
     static void read_turn(const JsonPlace& place, SceneClip& clip) {
@@ -292,10 +313,11 @@ class SceneReader {
             const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(i)];
             const SceneClip& clip = scene_.clips[static_cast<std::size_t>(move.clip)];
             if (!move.turned || !clip.source || (clip.turn && clip.turn->deg == move.turned->deg)) continue;
-            const std::string now = clip.turn ? "by " + brief(clip.turn->deg) + " degrees" : "not at all";
+            const auto [is, wanted] = told_apart(clip.turn ? clip.turn->deg : 0, move.turned->deg, brief);
+            const std::string now = clip.turn ? "by " + is + " degrees" : "not at all";
             const JsonPlace place = moves[i];
             place.require("clip").fail("the clip " + in_quotes(clip.name) + " turns " + now + ", the move by " +
-                                       brief(move.turned->deg) + " degrees; mend the clip's turn");
+                                       wanted + " degrees; mend the clip's turn");
         }
     }
 
@@ -312,6 +334,8 @@ class SceneReader {
     void read_source(const JsonPlace& place, SceneClip& clip) {
         if (const auto samples = place.find("samples"))
             samples->fail("a clip has a source or samples, not both; remove one");
+        if (const auto digest = place.find("digest"))
+            digest->fail("only samples have a digest; remove it, or give samples");
         const JsonPlace source = place.require("source");
         if (source.string().empty()) source.fail("the source is empty; name a clip file");
         if (source.string().find('\0') != std::string::npos)

@@ -100,6 +100,7 @@ void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, 
     }
     out.begin_object();
     out.members("dt", clip.clip->dt(), "motion", mobb::name(clip.clip->motion()));
+    if (clip.digest) out.member("digest", digest_text(*clip.digest));
     out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.tuple(disk.x, disk.y, disk.r); });
     out.end_object();
 }

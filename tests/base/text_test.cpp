@@ -1,5 +1,6 @@
 #include <base/base64.h>
 #include <base/markup.h>
+#include <base/sentences.h>
 #include <base/text.h>
 
 #include <gtest/gtest.h>
@@ -31,6 +32,20 @@ TEST(Text, NumbersAreWholeFiniteAndDecimal) {
     EXPECT_EQ(parse_int("010"), 10);
     EXPECT_FALSE(parse_int("7.0"));
     EXPECT_FALSE(parse_int("99999999999"));
+}
+
+TEST(Text, NumbersThatDifferAreToldApart) {
+    const auto four = [](double value) { return figure(value); };
+    EXPECT_EQ(told_apart(0.25, 0.5, four), (std::pair<std::string, std::string>("0.25", "0.5")));
+    EXPECT_EQ(told_apart(1.209, 1.2094, four), (std::pair<std::string, std::string>("1.209", "1.2094")));
+    EXPECT_EQ(told_apart(3, 3, to_thousandth), (std::pair<std::string, std::string>("3", "3")));
+    EXPECT_EQ(told_apart(12.3451, 12.3452, to_thousandth), (std::pair<std::string, std::string>("12.3451", "12.3452")));
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 1000; ++i) {
+        const double value = std::ldexp(static_cast<double>(random() >> 11), -static_cast<int>(random() % 80));
+        const auto [one, other] = told_apart(value, std::nextafter(value, 1e300), four);
+        ASSERT_NE(one, other) << format_double(value);
+    }
 }
 
 TEST(Text, SeventeenDigitsGiveTheSameDoubleBack) {

@@ -54,6 +54,15 @@ int count_of(const std::string& text, const std::string& what) {
     return count;
 }
 
+// By another program: FNV-1a over the bytes that the documents name.
+TEST(CaptureDigest, IsThatOfTheNumbersAndTheMotion) {
+    const std::vector<Disk> samples{{1, 2, 0.5}, {-0.0, 1e-3, 0}};
+    EXPECT_EQ(digest(0.25, samples, Motion::held), 0x7110979caab07a4du);
+    EXPECT_EQ(digest(Clip(0.25, samples, Motion::linear)), 0x1306d665644cc3b7u);
+    const auto clip = std::make_shared<const Clip>(0.25, samples, Motion::linear);
+    EXPECT_EQ(count_of(scene_text(Capture{{clip, {}}, {clip, {}}}), "\"digest\": \"1306d665644cc3b7\""), 1);
+}
+
 TEST(CaptureRing, HoldsTheLastQueriesTheOldestFirst) {
     CaptureRing ring(3);
     EXPECT_EQ(ring.size(), 3);

@@ -4,6 +4,7 @@
 #include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
+#include <mobb/capture.h>
 #include <scene/scene_edits.h>
 
 #include <algorithm>
@@ -141,6 +142,7 @@ void capture(Workspace& workspace, QueryInspector& queries, Excerpts& excerpts, 
             clip.options = {};
             clip.warp.reset();
             clip.turn.reset();
+            clip.digest = mobb::digest(*clip.clip);
         }
         make_queries_explicit(scene);
         scene.queries.front().expect = Expectation{contact.has_value(), contact};

@@ -1,6 +1,7 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/axis_intervals.h>
 #include <explain/clearance.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 #include <string>
 #include <vector>
@@ -208,9 +208,7 @@ void current_test(Ui& ui, const QueryFindings& findings) {
         outcome_sign(ui, mark, ui.px(12));
         ImGui::SameLine(0, ui.px(7));
         words(mark_text(ui.style, mark), headline(mark));
-        std::string sentence = outcome_text(findings.sides, event) + ".";
-        sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-        words(ui, ui.style.text, sentence, {event.gap, -event.gap});
+        words(ui, ui.style.text, as_sentence(outcome_text(findings.sides, event) + '.'), {event.gap, -event.gap});
     });
     ui.mark("query.test");
     node_line(ui, findings, 0, event.a);

@@ -2,8 +2,8 @@
 #include <app/panels/panels.h>
 #include <app/ui/dialog_frame.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 
-#include <cctype>
 #include <string>
 
 namespace mobbscope::app {
@@ -12,10 +12,8 @@ namespace {
 
 /// "Moving A"; of the oldest state how it began.
 std::string name_of_state(const History& history, std::size_t state) {
-    std::string title = history.title(state);
-    if (title.empty()) return "As it was opened";
-    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-    return title;
+    const std::string title = history.title(state);
+    return title.empty() ? "As it was opened" : as_sentence(title);
 }
 
 void state_row(Ui& ui, std::size_t state) {

@@ -188,12 +188,15 @@ void Imports::tell_of_warnings(std::size_t from) {
     const auto tell = [&](const Told& told) {
         const std::string others =
             told.clips > 1 ? " (" + counted(told.clips - 1, "more clip", "more clips") + ")" : "";
-        const MessageOffer offer =
-            told.of->source
-                ? MessageOffer{"clip.import", told.of->name + ' ' + told.warning->option, "Import options..."}
-                : MessageOffer{"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + told.of->name,
-                               "Make it linear"};
-        notifications_.tell(MessageLevel::warning, told.of->name + ": " + said(*told.warning) + others, {offer});
+        std::vector<MessageOffer> offers;
+        if (told.of->source) {
+            offers.push_back({"clip.import", told.of->name + ' ' + told.warning->option, "Import options..."});
+        } else if (told.warning->option != kDigest) {
+            offers.push_back(
+                {"clip.motion", std::string(name(mobb::Motion::linear)) + ' ' + told.of->name, "Make it linear"});
+        }
+        notifications_.tell(MessageLevel::warning, told.of->name + ": " + said(*told.warning) + others,
+                            std::move(offers));
     };
     // The latest stands out most: a wrong unit makes all else look wrong.
     for (const auto& [option, told] : by_option) {
