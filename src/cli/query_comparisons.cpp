@@ -27,39 +27,13 @@ struct CheckTotals {
     std::int64_t events = 0;
 };
 
-/// A query that the file knows something about, asked again.
-struct CheckedQuery {
-    SceneQuery query;
-    Answer answer;
-    std::optional<std::string> disagrees;  ///< with the expected answer
-    std::optional<TraceCheck> trace;       ///< none: none is stored
-
-    /// Of a wrong answer also whether the traces agree: if they do, the fault is not in the query.
-    std::optional<std::string> complaint() const {
-        if (!trace || (!disagrees && trace->agrees())) return disagrees;
-        const std::string traces = check_words(*trace, *query.trace, *answer.trace);
-        if (!disagrees) return traces;
-        std::string out = *disagrees;
-        if (out.ends_with('.')) out.pop_back();
-        return out.append("; ").append(traces);
-    }
-};
-
-CheckedQuery check_query(const FittedScene& fitted, const SceneQuery& query) {
-    CheckedQuery out{query, answer(fitted, query, {.trace = query.trace != nullptr}), {}, {}};
-    out.disagrees = disagreement(query, out.answer);
-    if (!out.disagrees) out.disagrees = yes_no_disagreement(fitted, query, out.answer.contact.has_value());
-    if (query.trace) out.trace = check_trace(*query.trace, *out.answer.trace);
-    return out;
-}
-
 /// The event of one side, or null where it has none.
 void write_side(JsonWriter& json, const char* name, const mobb::Trace& trace, int step) {
     json.key(name);
     step < trace.size() ? write_event(json, trace, step) : json.null();
 }
 
-void write_check(JsonWriter& json, std::size_t index, const CheckedQuery& checked) {
+void write_check(JsonWriter& json, std::size_t index, const QueryCheck& checked) {
     json.begin_object();
     json.members("query", index, "a", checked.query.a.name, "b", checked.query.b.name);
     json.member("answer_agrees", checked.query.expect ? std::optional(!checked.disagrees) : std::nullopt);
@@ -86,6 +60,16 @@ void write_check(JsonWriter& json, std::size_t index, const CheckedQuery& checke
     }
     json.member("disagreement", checked.complaint());
     json.end_object();
+}
+
+/// What was not captured says nothing of the answers.
+void refuse_altered_clips(const Scene& scene, const std::filesystem::path& file) {
+    for (const SceneClip& clip : scene.clips) {
+        const auto altered = std::ranges::find(clip.facts.warnings, kDigest, &ImportWarning::option);
+        if (altered != clip.facts.warnings.end())
+            throw InputError(file, "/clips/" + clip.name + "/digest",
+                             altered->text + "; check the file as it was captured");
+    }
 }
 
 std::string totals_words(const CheckTotals& totals, std::size_t queries) {
@@ -171,6 +155,7 @@ void print_comparison(std::ostream& out, std::size_t index, const SceneQuery& qu
 }  // namespace
 
 int check_queries(const FittedScene& fitted, const std::filesystem::path& file, bool json) {
+    refuse_altered_clips(fitted.scene(), file);
     CheckTotals totals;
     std::vector<std::string> complaints;
     JsonWriter out(std::cout);
@@ -181,7 +166,7 @@ int check_queries(const FittedScene& fitted, const std::filesystem::path& file, 
     for (std::size_t index = 0; index < fitted.queries().size(); ++index) {
         const SceneQuery query = fitted.queries()[index];
         if (!query.expect && !query.trace) continue;
-        const CheckedQuery checked = check_query(fitted, query);
+        const QueryCheck checked = check_query(fitted, query);
         if (query.expect) ++totals.answers;
         if (checked.trace) {
             ++totals.traces;

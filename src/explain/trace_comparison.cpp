@@ -66,15 +66,15 @@ std::string side_words(const mobb::Trace& trace, const TraceDifference& differen
     return out;
 }
 
-/// The first of two lists of pairs that differs.
-std::string first_pair_words(const mobb::Trace::Event& stored, const mobb::Trace::Event& present) {
+/// The first that differs of two lists of pairs, of either side: "pair 3: samples 4 and 5 at 0.3 m".
+std::pair<std::string, std::string> first_pairs(const mobb::Trace::Event& stored, const mobb::Trace::Event& present) {
     double rounding = 0;
     const auto at = std::ranges::mismatch(stored.pairs, present.pairs, [&](const auto& one, const auto& other) {
         return pairs_agree(one, other, rounding);
     });
     const auto index = static_cast<std::size_t>(at.in1 - stored.pairs.begin());
-    return "; pair " + std::to_string(index) + ": stored " + pair_words(stored.pairs, index) + ", now " +
-           pair_words(present.pairs, index);
+    const std::string which = "pair " + std::to_string(index) + ": ";
+    return {which + pair_words(stored.pairs, index), which + pair_words(present.pairs, index)};
 }
 
 std::string stopped_words(const char* whose, const mobb::Trace& trace) {
@@ -133,7 +133,27 @@ std::string check_words(const TraceCheck& check, const mobb::Trace& stored, cons
     }
     out += " in " + listed(difference.members) + ": stored " + side_words(stored, difference) + "; now " +
            side_words(present, difference);
-    if (differs_in(difference, "pairs")) out += first_pair_words(stored[difference.step], present[difference.step]);
+    if (differs_in(difference, "pairs")) {
+        const auto [of_stored, of_present] = first_pairs(stored[difference.step], present[difference.step]);
+        out += "; stored " + of_stored + "; now " + of_present;
+    }
+    return out;
+}
+
+SteppedTraces traces_at(const mobb::Trace& stored, const mobb::Trace& present, int step) {
+    TraceDifference at{step, {}};
+    double rounding = 0;
+    const bool both = step < stored.size() && step < present.size();
+    if (both) at.members = members_that_differ(stored[step], present[step], rounding);
+    const auto in_words = [&](const mobb::Trace& trace) {
+        return step < trace.size() ? side_words(trace, at) : std::string("the trace has ended");
+    };
+    SteppedTraces out{in_words(stored), in_words(present), both && at.members.empty()};
+    if (differs_in(at, "pairs")) {
+        const auto [of_stored, of_present] = first_pairs(stored[step], present[step]);
+        out.stored += "; " + of_stored;
+        out.present += "; " + of_present;
+    }
     return out;
 }
 
@@ -151,6 +171,23 @@ std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const 
                    ", but the query that finds contacts says otherwise";
     }
     return std::nullopt;
+}
+
+std::optional<std::string> QueryCheck::complaint() const {
+    if (!trace || (!disagrees && trace->agrees())) return disagrees;
+    const std::string traces = check_words(*trace, *query.trace, *answer.trace);
+    if (!disagrees) return traces;
+    std::string out = *disagrees;
+    if (out.ends_with('.')) out.pop_back();
+    return out.append("; ").append(traces);
+}
+
+QueryCheck check_query(const FittedScene& fitted, const SceneQuery& query) {
+    QueryCheck out{query, answer(fitted, query, {.trace = query.trace != nullptr}), {}, {}};
+    out.disagrees = disagreement(query, out.answer);
+    if (!out.disagrees) out.disagrees = yes_no_disagreement(fitted, query, out.answer.contact.has_value());
+    if (query.trace) out.trace = check_trace(*query.trace, *out.answer.trace);
+    return out;
 }
 
 std::vector<Decision> decisions_of(const mobb::PlacedTree& a, const mobb::PlacedTree& b,

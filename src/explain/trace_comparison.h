@@ -3,6 +3,7 @@
 
 #include <explain/certificate.h>
 #include <mobb/trace.h>
+#include <scene/answer.h>
 #include <scene/fitted_scene.h>
 
 #include <array>
@@ -43,9 +44,30 @@ TraceCheck check_trace(const mobb::Trace& stored, const mobb::Trace& present);
 /// "54 events agree with the stored trace", or the first difference with both sides.
 std::string check_words(const TraceCheck& check, const mobb::Trace& stored, const mobb::Trace& present);
 
+/// A step of a stored trace beside the same of the present one, each in words.
+struct SteppedTraces {
+    std::string stored, present;  ///< "12 x 9 obb2d: separated along axis 1 by 0.183 m"
+    bool agree = true;            ///< within kTraceAgreement
+};
+SteppedTraces traces_at(const mobb::Trace& stored, const mobb::Trace& present, int step);
+
 /// Of blocks: what is wrong if the queries that crowds ask, which only say yes or no, disagree with the one that finds
 /// the contact. Of other trees nothing.
 std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const SceneQuery& query, bool collides);
+
+/// A query whose file knows its answer or its trace, asked again.
+struct QueryCheck {
+    SceneQuery query;
+    Answer answer;                         ///< with a trace where one is stored
+    std::optional<std::string> disagrees;  ///< with the expected answer
+    std::optional<TraceCheck> trace;       ///< none: none is stored
+
+    /// What differs; nothing if all agrees. Of a wrong answer also whether the traces agree: if they do, the fault is
+    /// not in the query.
+    std::optional<std::string> complaint() const;
+};
+
+QueryCheck check_query(const FittedScene& fitted, const SceneQuery& query);
 
 // ---- two traversals: by time
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace mobbscope::app {
 namespace {
@@ -97,6 +98,61 @@ TEST(CompareWindow, AStoredTraceIsComparedEventByEvent) {
     w.run("expect /query/compare/difference " + std::to_string(changed));
     w.run("run step.last\nframes 2\nclick query.difference\nframes 2");
     EXPECT_EQ(w.session.workspace.step(), changed);
+}
+
+TEST(CompareWindow, AStoredTraceIsCheckedWhenItsFileIsOpened) {
+    CompareWorld w;
+    Scene scene = w.session.workspace.scene();
+    const SceneQuery asked = w.session.workspace.fitted().queries()[0];
+    const RecordedQuery now = *w.session.workspace.recorded();
+    mobb::Trace stored;
+    std::vector<mobb::MeasuredPair> pairs;
+    int changed = -1;
+    for (int step = 0; step < now.trace.size(); ++step) {
+        mobb::Trace::Event event = now.trace[step];
+        if (changed < 0 && !event.pairs.empty()) {
+            pairs.assign(event.pairs.begin(), event.pairs.end());
+            pairs.back().distance += 1e-6;
+            event.pairs = pairs;
+            changed = step;
+        }
+        stored.push(event);
+    }
+    ASSERT_GE(changed, 0);
+    const Expectation expect{now.contact.has_value(), now.contact};
+    scene.queries = {{asked.a, asked.b, expect, std::make_shared<const mobb::Trace>(now.trace)}};
+    w.session.notifications.clear();
+    w.open(to_json(scene));
+    EXPECT_TRUE(w.session.notifications.all().empty()) << "it is as the file says";
+    w.run("run query.select 0\nframes 3");
+    EXPECT_FALSE(w.has("query.disagrees"));
+    scene.queries.push_back({asked.a, asked.b, expect, std::make_shared<const mobb::Trace>(stored)});
+    w.open(to_json(scene));
+    const std::string at_step = "the traces differ at step " + std::to_string(changed) + " in pairs";
+    ASSERT_EQ(w.session.notifications.all().size(), 1u);
+    const std::string said = w.session.notifications.all().back().text;
+    EXPECT_TRUE(said.starts_with("query 1: " + at_step)) << said;
+    EXPECT_EQ(w.session.workspace.stored_difference(0), nullptr);
+    ASSERT_TRUE(w.session.workspace.stored_difference(1));
+    w.run("run query.select 1\nrun step.last\nframes 3");
+    EXPECT_TRUE(w.has("query.disagrees")) << "the answer is as expected, the trace is not";
+    w.run("click query.difference\nframes 3");
+    EXPECT_EQ(w.session.workspace.step(), changed);
+    EXPECT_TRUE(w.has("compare.now")) << "both sides of the step";
+}
+
+TEST(CompareWindow, AClipThatWasAlteredIsNamedWhenItsFileIsOpened) {
+    CompareWorld w;
+    w.run("run query.capture 0\nframes 3");
+    const std::string text = to_json(w.session.workspace.scene());
+    ASSERT_NE(text.find("\"digest\": \""), std::string::npos);
+    w.session.notifications.clear();
+    w.open(text);
+    EXPECT_TRUE(w.session.notifications.all().empty());
+    const std::size_t dt = text.find("\"dt\": ") + 6;
+    w.open(text.substr(0, dt) + " 0.5" + text.substr(text.find(',', dt)));
+    ASSERT_FALSE(w.session.notifications.all().empty());
+    EXPECT_NE(w.session.notifications.all().front().text.find("are not those that were captured"), std::string::npos);
 }
 
 }  // namespace

@@ -400,6 +400,56 @@ TEST(QueryCheck, EveryChangeOfATraceIsFound) {
     }
 }
 
+TEST(QueryCheck, SamplesThatWereAlteredAreRefused) {
+    const TempFolder folder;
+    json scene = json::parse(R"({"clips": {"c": {"dt": 0.1, "digest": "73bdd65c058284da",
+        "samples": [[0, 0, 0.3], [0.1, 0, 0.3]]}}, "agents": [{"name": "A", "clip": "c"},
+        {"name": "B", "clip": "c", "translate": [0, 5]}],
+        "queries": [{"a": "A", "b": "B", "expect": {"collides": false}}]})");
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"query", folder.write("capture.json", scene.dump())};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_program(all);
+    };
+    EXPECT_EQ(run({"--check"}).status, 0);
+    EXPECT_EQ(run({}).err, "");
+    EXPECT_EQ(run({"--check", "--motion", "linear"}).status, 0) << "the file's motion is as it was";
+    scene["clips"]["c"]["samples"][1][1] = 1e-15;
+    const Result altered = run({"--check"});
+    EXPECT_EQ(altered.status, 2);
+    EXPECT_EQ(altered.out, "");
+    EXPECT_NE(altered.err.find("/clips/c/digest: its samples are not those that were captured"), std::string::npos)
+        << altered.err;
+    const Result asked = run({});
+    EXPECT_EQ(asked.status, 0);
+    EXPECT_NE(asked.err.find("clip 'c': its samples are not those that were captured"), std::string::npos) << asked.err;
+    scene["clips"]["c"]["samples"][1][1] = 0;
+    scene["clips"]["c"]["motion"] = "linear";
+    EXPECT_EQ(run({"--check"}).status, 2) << "the motion counts too";
+    scene["clips"]["c"]["digest"] = "73bdd65c058284";
+    EXPECT_EQ(run({}).status, 2) << "too short";
+}
+
+TEST(QueryCheck, AContactThatDiffersALittleIsShownToDiffer) {
+    const TempFolder folder;
+    const std::string file = capture(folder, [](json& query) {
+        query.erase("trace");
+        json& contact = query["expect"]["contact"];
+        contact["time"] = contact["time"].get<double>() + 1e-7;
+        contact["distance"] = contact["distance"].get<double>() + 1e-6;
+    });
+    const Result run = run_program({"query", file, "--check"});
+    EXPECT_EQ(run.status, 1);
+    const json contact = json::parse(slurp(file))["queries"][0]["expect"]["contact"];
+    for (const char* what : {"; time: expected ", "; distance: expected "}) {
+        const std::size_t at = run.err.find(what);
+        ASSERT_NE(at, std::string::npos) << run.err;
+        const std::string pair = run.err.substr(at + std::string(what).size());
+        const std::string now = pair.substr(pair.find(", now ") + 6);
+        EXPECT_NE(pair.substr(0, pair.find(' ')), now.substr(0, now.find(' '))) << run.err;
+    }
+}
+
 TEST(QueryCheck, ARecordingThatStoppedIsComparedUpToThere) {
     const TempFolder folder;
     const std::string file = capture(folder, [](json& query) {

@@ -108,6 +108,28 @@ TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
     EXPECT_GT(went_on, 10);
 }
 
+TEST(TraceComparison, TwoTracesAreSteppedSideBySide) {
+    mobb::Trace stored, present;
+    const std::vector<mobb::MeasuredPair> pairs{{4, 5, 0.75}}, others{{4, 5, 0.5}};
+    mobb::Trace::Event event{.test = mobb::TestKind::samples, .outcome = mobb::Outcome::no_hit, .pairs = pairs};
+    stored.push(event);
+    present.push(event);
+    event.parent = 0;
+    event.depth = 1;
+    stored.push(event);
+    event.pairs = others;
+    present.push(event);
+    stored.push(event);
+    EXPECT_TRUE(traces_at(stored, present, 0).agree);
+    const SteppedTraces differ = traces_at(stored, present, 1);
+    EXPECT_FALSE(differ.agree);
+    EXPECT_NE(differ.stored.find("pair 0: samples 4 and 5 at 0.75 m"), std::string::npos) << differ.stored;
+    EXPECT_NE(differ.present.find("pair 0: samples 4 and 5 at 0.5 m"), std::string::npos) << differ.present;
+    const SteppedTraces ended = traces_at(stored, present, 2);
+    EXPECT_FALSE(ended.agree);
+    EXPECT_EQ(ended.present, "the trace has ended");
+}
+
 TEST(TraversalComparison, WithItselfAllIsZero) {
     mobb::test::Random random(38);
     for (int i = 0; i < certificate_budget() / 3; ++i) {

@@ -428,8 +428,18 @@ bool is_crowd(const Workspace& workspace) {
     return workspace.crowd() || (has_agents && workspace.fitted().placed_agents().size() > kFewAgents);
 }
 
+const std::string* Workspace::stored_difference(int query) const {
+    const auto at = stored_differences.queries.find(query);
+    const bool holds = at != stored_differences.queries.end() && &stored_differences.in->scene() == &scene();
+    return holds ? &at->second : nullptr;
+}
+
 mobb::Interval time_span(const Workspace& workspace) {
-    if (workspace.crowd()) return {0, workspace.crowd()->seconds};
+    if (const CrowdRun* run = workspace.crowd()) {
+        const auto& found = workspace.found;
+        const bool is_of_it = found && &found->in->scene() == &workspace.scene();
+        return {0, is_of_it ? std::max(run->seconds, found->end) : run->seconds};
+    }
     mobb::Interval span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
     for_each_agent_in_view(workspace.fitted(), workspace.view(), [&](const PlacedAgent& who) {
         const mobb::PlacedTree tree = workspace.fitted().placed(who);

@@ -135,9 +135,16 @@ class Workspace {
     struct FoundConflicts {
         std::shared_ptr<const FittedScene> in;
         std::vector<SceneConflict> conflicts;
+        double end = 0;  ///< of the last contact, global seconds
     };
     std::optional<FoundConflicts> found;  ///< none: nobody has looked yet
     int conflict = -1;                    ///< that was gone to last; -1: none
+    /// What did not agree with the file's answers and traces when it was opened.
+    struct StoredDifferences {
+        std::shared_ptr<const FittedScene> in;
+        std::map<int, std::string> queries;  ///< what differs, by query
+    };
+    StoredDifferences stored_differences;
 
     std::vector<RunningJob> jobs;                   ///< the oldest first
     std::deque<ImportChange> import_changes;        ///< not begun yet
@@ -169,6 +176,8 @@ class Workspace {
     std::shared_ptr<const TreeCost> cost_of(const FittedScene& of, int clip) const;
     /// Whom the queries blame for avoidable overlaps; null if nobody has counted that in this scene and fit.
     const BlameInScene* blame() const { return blame(*document().fitted).get(); }
+    /// What of a query did not agree with the file; null: nothing did, or the scene is another one by now.
+    const std::string* stored_difference(int query) const;
     /// The event of the trace that the view shows; requires recorded().
     int step() const;
     /// Whether a camera stands as one of the framings, turned or not.
@@ -312,7 +321,8 @@ class Workspace {
 /// Whether there are so many that they are a crowd: a run, or more agents than lists of pairs are made for. Clips
 /// without agents are none.
 bool is_crowd(const Workspace& workspace);
-/// First and last moment of the paths in view, global seconds; 0..0 for an empty scene.
+/// First and last moment of the paths in view, global seconds; 0..0 for an empty scene. Of a run what was simulated,
+/// and on to the end of the last conflict that was found.
 mobb::Interval time_span(const Workspace& workspace);
 /// The clip of the document that one plays: of a run that of the play, which is drawn as one that runs on.
 int clip_played(const Workspace& workspace, const PlacedAgent& who);

@@ -3,13 +3,13 @@
 #include <app/panels/ruler.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <string>
 #include <utility>
@@ -158,10 +158,13 @@ void compared_stored(Ui& ui, QueryInspector& queries) {
     if (!stored) return words(ui.style.quiet, "The scene has no stored trace of this query.");
     const mobb::Trace& present = ui.workspace.recorded()->trace;
     const TraceCheck& check = queries.stored_check();
-    std::string told = check_words(check, *stored, present) + ".";
-    told[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(told[0])));
-    words(check.agrees() ? ui.style.quiet : ui.style.warning, told);
+    words(check.agrees() ? ui.style.quiet : ui.style.warning, as_sentence(check_words(check, *stored, present) + '.'));
     ui.mark_only("compare.words");
+    const SteppedTraces both = traces_at(*stored, present, ui.workspace.step());
+    const std::string step = "Step " + std::to_string(ui.workspace.step());
+    for (const auto& [whose, found] : {std::pair(", stored: ", &both.stored), std::pair(", now: ", &both.present)})
+        words(both.agree ? ui.style.quiet : ui.style.warning, step + whose + *found);
+    ui.mark_only("compare.now");
     if (check.difference) query_button(ui, "Go to the first difference", "compare.difference");
     compared_counters(ui, {"stored", "now"}, stored->counts(), present.counts());
 }

@@ -3,6 +3,7 @@
 #include <app/panels/query_parts.h>
 #include <app/ui/swatch.h>
 #include <app/ui/widgets.h>
+#include <base/sentences.h>
 #include <base/text.h>
 #include <explain/query_findings.h>
 #include <explain/query_sentence.h>
@@ -56,18 +57,21 @@ void answer_sign(Ui& ui, bool collide, ImU32 color) {
 void expectation(Ui& ui, QueryInspector& queries) {
     const auto index = static_cast<std::size_t>(*ui.workspace.view().query);
     const SceneQuery query = ui.workspace.fitted().queries()[index];
-    if (query.expect) {
-        const auto wrong = disagreement(query, queries.answer_of(index));
-        if (!wrong) {
-            words(ui.style.quiet, "As the scene expects.");
-            return;
-        }
-        words(ui.style.warning, "Not as the scene expects: " + *wrong);
+    const auto wrong = disagreement(query, queries.answer_of(index));
+    const bool traces_agree = !query.trace || queries.stored_check().agrees();
+    if (wrong) words(ui.style.warning, "Not as the scene expects: " + *wrong);
+    if (!traces_agree) {
+        const std::string traces =
+            check_words(queries.stored_check(), *query.trace, ui.workspace.recorded()->trace) + '.';
+        const bool answer_agrees = query.expect && !wrong;
+        words(ui.style.warning,
+              answer_agrees ? "The answer is as the scene expects, but " + traces : as_sentence(traces));
     }
-    query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
-    if (!query.trace || queries.stored_check().agrees()) return;
-    words(ui.style.warning, "Its tests are not those of the stored trace.");
-    query_button(ui, "first difference", "compare.difference");
+    if (wrong || !traces_agree) ui.mark_only("query.disagrees");
+    if (query.expect && !wrong && traces_agree) words(ui.style.quiet, "As the scene expects.");
+    if (!query.expect || wrong)
+        query_button(ui, query.expect ? "Expect this instead" : "Expect this answer", "query.expect");
+    if (!traces_agree && queries.stored_check().difference) query_button(ui, "first difference", "compare.difference");
 }
 
 void contact_rows(Ui& ui, const QueryFindings& findings, const mobb::Contact& contact) {

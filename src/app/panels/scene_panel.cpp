@@ -337,7 +337,8 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
         const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
         const Selection self{Selection::Kind::query, {}, i};
         const bool hit = answer.contact.has_value();
-        const bool unexpected = disagreement(query, answer).has_value();
+        std::optional<std::string> unexpected = disagreement(query, answer);
+        if (const std::string* stored = ui.workspace.stored_difference(i); stored && !unexpected) unexpected = *stored;
         const Palette& palette = ui.style.palette;
         const std::string found = by_tests ? counted(costs.costs()->tests[static_cast<std::size_t>(i)], "test", "tests")
                                   : hit    ? formatted("hit %.2f s", answer.contact->time)
@@ -358,7 +359,7 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
         if (!ImGui::IsItemHovered()) return;
         ui.hovered = self;
         ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
-                          unexpected ? "\nThe scene expects the other answer" : "");
+                          unexpected ? ("\nNot as the file has it: " + *unexpected).c_str() : "");
     });
     if (count > 1) query_order(ui, costs, static_cast<std::size_t>(count));
     if (count == 0)

@@ -3,6 +3,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/text.h>
+#include <explain/trace_comparison.h>
 #include <scene/arrangement.h>
 #include <scene/load_files.h>
 #include <scene/scene_edits.h>
@@ -92,6 +93,33 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     parts_.workspace = std::move(next);
     look_at_files();
     parts_.imports.tell_of_warnings(0);
+    check_stored();
+}
+
+void Files::check_stored() {
+    const std::vector<SceneQuery>& queries = parts_.workspace.scene().queries;
+    if (std::ranges::none_of(queries, [](const SceneQuery& query) { return query.expect || query.trace; })) return;
+    parts_.jobs.start(
+        "Checking stored answers", [this, in = parts_.workspace.document().fitted](JobControl& control) -> Job::Finish {
+            Workspace::StoredDifferences found{in, {}};
+            const std::vector<SceneQuery>& asked = in->scene().queries;
+            for (std::size_t i = 0; i < asked.size(); ++i) {
+                control.step(i, asked.size());
+                if (!asked[i].expect && !asked[i].trace) continue;
+                if (auto words = check_query(*in, asked[i]).complaint())
+                    found.queries.emplace(static_cast<int>(i), std::move(*words));
+            }
+            return [this, found = std::move(found)]() mutable {
+                if (found.queries.empty() || &found.in->scene() != &parts_.workspace.scene()) return;
+                const auto& [query, words] = *found.queries.begin();
+                const std::size_t others = found.queries.size() - 1;
+                const std::string more =
+                    others > 0 ? " (and " + counted(others, "more query", "more queries") + ")" : "";
+                parts_.notifications.tell(MessageLevel::warning, "query " + std::to_string(query) + ": " + words + more,
+                                          {{"query.select", std::to_string(query), "Show it"}});
+                parts_.workspace.stored_differences = std::move(found);
+            };
+        });
 }
 
 std::vector<std::filesystem::path> Files::look_at_files() {

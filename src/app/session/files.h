@@ -109,6 +109,8 @@ class Files {
     void load_scene(const std::string& title, const LoadAll& load_all, const std::vector<std::filesystem::path>& files,
                     const std::optional<ViewState>& view = std::nullopt);
     void replace(Document document, const std::vector<std::filesystem::path>& opened);
+    /// Compares the answers and traces that the file has with new ones, beside the window; says what differs.
+    void check_stored();
     /// For another scene than that of the present opening: what was said and asked about that one is over.
     void turn_away();
     /// Says so if one of them is not there; whether it did.
