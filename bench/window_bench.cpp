@@ -141,6 +141,15 @@ void panel(benchmark::State& state, Backend backend, int agents) {
     measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
 }
 
+/// Likewise, with one agent alone in the picture.
+void panel_alone(benchmark::State& state, Backend backend, int agents) {
+    BenchWindow window(backend, bench::crowd(agents));
+    run_command(window.session(), "go.agent", "agent 1");
+    run_command(window.session(), "agent.solo");
+    window.rest();
+    measure(state, window, [&](std::size_t frame) { return around({120, 400}, 60, frame); });
+}
+
 // --- how soon it answers
 
 double wall_seconds() {
@@ -313,6 +322,7 @@ void add_all() {
             add("orbit_narrow_panels" + crowd + on, orbit, backend, agents, Panels::narrow);
             add("hover" + crowd + on, hover, backend, agents);
             add("panel" + crowd + on, panel, backend, agents);
+            add("panel_alone" + crowd + on, panel_alone, backend, agents);
         }
         for (const int agents : {100, 1000}) {
             const std::string crowd = "/" + std::to_string(agents) + "_agents";

@@ -27,7 +27,9 @@ constexpr std::array<std::uint32_t, 8> kAgentColors{0xE69F00, 0x56B4E9, 0xCC79A7
 
 Rgba palette_color(int index) { return hex(kAgentColors[static_cast<std::size_t>(index) % kAgentColors.size()]); }
 
-bool fits_a_label(const std::string& name) { return code_points(name).size() <= kLongestLabel; }
+bool fits_a_label(const std::string& name) {
+    return name.size() <= kLongestLabel || code_points(name).size() <= kLongestLabel;
+}
 
 DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who, int index,
                             const Rgba& color, const NameList& names) {

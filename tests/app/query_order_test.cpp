@@ -42,7 +42,7 @@ struct QueryOrderWindow : FolderWindow<TempFolder> {
 
 TEST(QueryOrder, HitsStandFirst) {
     QueryOrderWindow w;
-    const QueryAnswers::Known known = w.session.answers.known();
+    const QueryAnswers::Known known = *w.session.answers.known();
     EXPECT_EQ(known.asked, 15u);
     EXPECT_EQ(known.hits, std::vector<int>{14});
     std::vector<int> expected{14};
@@ -78,7 +78,7 @@ TEST(QueryOrder, AnEditIsAskedAgain) {
     run_command(w.session, "go.agent", "F");
     run_command(w.session, "agent.move", "9 0");
     w.window.settle();
-    EXPECT_TRUE(w.session.answers.known().hits.empty());
+    EXPECT_TRUE(w.session.answers.known()->hits.empty());
     EXPECT_EQ(w.session.costs.listed().front(), 0);
 }
 

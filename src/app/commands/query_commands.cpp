@@ -41,7 +41,7 @@ void leave(Workspace& workspace) {
 /// The query `by` rows on in the list; from none the first, or the last.
 template <int by>
 std::optional<int> query_beside(const Workspace& workspace, const CostInspector& costs) {
-    const std::vector<int> listed = costs.listed();
+    const std::vector<int>& listed = costs.listed();
     const auto count = static_cast<int>(listed.size());
     int place = by > 0 ? -1 : count;
     if (const auto now = workspace.view().query)

@@ -19,12 +19,17 @@ void require_other(const mobb::FitOptions& fit, std::span<const mobb::FitOptions
 
 }  // namespace
 
-SceneView Views::at(std::size_t place) const {
+std::shared_ptr<const FittedScene> Views::fitted(std::size_t place) const {
     const Document& now = workspace_.document();
-    if (place == now.place) return {workspace_.shown(), now.view};
+    if (place == now.place) return workspace_.shown();
     const SceneView& other = now.beside[place < now.place ? place : place - 1];
     shown_beside_.resize(now.beside.size() + 1);
-    return {shown_beside_[place].at(other), other.view};
+    return shown_beside_[place].at(other.fitted, other.view);
+}
+
+const ViewState& Views::view(std::size_t place) const {
+    const Document& now = workspace_.document();
+    return place == now.place ? now.view : now.beside[place < now.place ? place : place - 1].view;
 }
 
 void Views::split(const std::string& name, const mobb::FitOptions& options) {

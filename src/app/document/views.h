@@ -4,6 +4,7 @@
 #include <app/document/workspace.h>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,9 @@ class Views {
     /// The place of the view that commands and panels are about.
     std::size_t active() const { return workspace_.document().place; }
     /// What is seen at a place, < count(); of a run as Workspace::shown.
-    SceneView at(std::size_t place) const;
+    SceneView at(std::size_t place) const { return {fitted(place), view(place)}; }
+    std::shared_ptr<const FittedScene> fitted(std::size_t place) const;
+    const ViewState& view(std::size_t place) const;
     /// Shows the scene once more, to the right of all, as the active view does but with the fit of those options; makes
     /// it if there is none, under that name or with a number behind it. Throws std::invalid_argument for options out of
     /// range or already in view, an empty name, or if there are kMostViews.

@@ -37,9 +37,8 @@ void keep_of_scene(Found& found, const std::shared_ptr<const FittedScene>& of, W
 
 }  // namespace
 
-std::shared_ptr<const FittedScene> ShownRun::at(const SceneView& seen) {
-    const std::shared_ptr<const FittedScene>& whole = seen.fitted;
-    const ViewState& view = seen.view;
+std::shared_ptr<const FittedScene> ShownRun::at(const std::shared_ptr<const FittedScene>& whole,
+                                                const ViewState& view) {
     if (!is_run(whole->scene())) return whole;
     const double now = run_time(whole->scene(), view);
     if (of != whole || time != now || window != view.time_window || show != view.show) {

@@ -69,8 +69,8 @@ struct ShownRun {
     Show show = Show::space_time;
     std::shared_ptr<const FittedScene> fitted;
 
-    /// What is drawn: the view's scene; of a run what it is at the view's time (fitted_at).
-    std::shared_ptr<const FittedScene> at(const SceneView& seen);
+    /// What is drawn: `whole`; of a run what it is at the view's time (fitted_at).
+    std::shared_ptr<const FittedScene> at(const std::shared_ptr<const FittedScene>& whole, const ViewState& view);
 };
 
 /// How the list of a query's events shows them.
@@ -155,7 +155,7 @@ class Workspace {
     /// What is edited and saved.
     const Scene& scene() const { return document().fitted->scene(); }
     /// What is drawn and pointed at: the document's scene; of a run what it is at the view's time.
-    std::shared_ptr<const FittedScene> shown() const { return shown_.at({document().fitted, view()}); }
+    std::shared_ptr<const FittedScene> shown() const { return shown_.at(document().fitted, view()); }
     const FittedScene& fitted() const { return *shown(); }
     const ViewState& view() const { return document().view; }
     bool empty() const { return scene().clips.empty(); }

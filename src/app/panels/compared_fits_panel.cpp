@@ -42,13 +42,13 @@ std::string more_text(const ComparedFigure& of, std::size_t fit) {
 
 /// The columns as pixels from the left edge: where texts end, but for the name of a fit, which begins there.
 struct FitColumns {
-    float name = 0, bar = 0, bar_end = 0, volume = 0, fill = 0, cost = 0, width = 0;
+    float name = 0, name_end = 0, volume = 0, more = 0, fill = 0, bar = 0, bar_end = 0, cost = 0;
     // Only where names have room beside them.
     bool has_more = true;  ///< by how much volumes differ
     bool has_fill = true;
 
-    FitColumns(const Ui& ui, float width_, const std::vector<std::string>& names, const ComparedFits& fits)
-        : width(width_) {
+    FitColumns(const Ui& ui, float width, const std::vector<std::string>& names, const ComparedFits& fits)
+        : cost(width) {
         const auto digits = [&](const char* text) { return text_size(*ui.style.mono, text).x; };
         float widest = 0;
         for (const std::string& each : names) widest = std::max(widest, text_size(*ui.style.body, each).x);
@@ -59,19 +59,19 @@ struct FitColumns {
                 longest_volume = std::max(longest_volume, digits(value_or_dash(volume_of).c_str()));
         }
         name = digits("leaf") + gap;
-        const float name_end = name + widest + ui.px(6);
+        bar_end = width - digits("00.00") - gap;
         const auto place = [&] {
-            cost = has_more ? width - digits("-100 %") - gap : width;
-            fill = cost - digits("0000") - gap;
-            volume = has_fill ? fill - digits("100 %") - gap : fill;
-            bar_end = volume - longest_volume - gap;
+            volume = std::min(name + widest + ui.px(6) + longest_volume, bar_end);
+            more = has_more ? volume + gap + digits("-100 %") : volume;
+            fill = has_fill ? more + gap + digits("100 %") : more;
+            bar = fill + gap;
         };
         place();
-        has_more = name_end <= bar_end;
+        has_more = bar <= bar_end;
         if (!has_more) place();
-        has_fill = has_more || name_end <= bar_end;
+        has_fill = has_more || bar <= bar_end;
         if (!has_fill) place();
-        bar = std::min(name_end, bar_end);
+        name_end = volume - longest_volume - ui.px(4);
     }
     bool has_bar(const Ui& ui) const { return bar_end - bar > ui.px(16); }
 };
@@ -128,10 +128,11 @@ class FitTable {
         };
         draw_text(draw, font, corner, ui_.style.quiet, "level");
         heading(at_.volume, "m\u00B2\u00B7s");
+        if (at_.has_more) heading(at_.more, "change");
         if (at_.has_fill) heading(at_.fill, "fill");
+        if (at_.has_bar(ui_)) draw_text(draw, font, {corner.x + at_.bar, corner.y}, ui_.style.quiet, "cost");
         heading(at_.cost, "ns");
-        if (at_.has_more) heading(at_.width, "volume");
-        ImGui::Dummy({at_.width, font.FontSize});
+        ImGui::Dummy({at_.cost, font.FontSize});
     }
 
     /// The name of a fit; returns where its row begins.
@@ -139,8 +140,8 @@ class FitTable {
         const ImFont& body = *ui_.style.body;
         const ImVec2 at{corner.x, corner.y + row_height() * static_cast<float>(fit) + 1};
         ImGui::PushFont(ui_.style.body);
-        const float room = (at_.has_bar(ui_) ? at_.bar : at_.bar_end) - at_.name - ui_.px(4);
-        draw_text(*ImGui::GetWindowDrawList(), body, {at.x + at_.name, at.y}, color, fitted_text(names_[fit], room));
+        draw_text(*ImGui::GetWindowDrawList(), body, {at.x + at_.name, at.y}, color,
+                  fitted_text(names_[fit], at_.name_end - at_.name));
         ImGui::PopFont();
         return at;
     }
@@ -148,7 +149,7 @@ class FitTable {
     void level_rows(const ComparedLevel& level) const {
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const std::string name = level.level < 0 ? "leaves" : std::to_string(level.level);
-        const bool pressed = ImGui::InvisibleButton(("compared" + name).c_str(), {at_.width, height()});
+        const bool pressed = ImGui::InvisibleButton(("compared" + name).c_str(), {at_.cost, height()});
         ui_.mark("compared.level." + name);
         const LevelRange& shown = ui_.workspace.view().levels;
         const bool is_level = !shown.leaves && level.level >= shown.first && level.level <= shown.last;
@@ -156,20 +157,18 @@ class FitTable {
         const bool over = ImGui::IsItemHovered();
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         if (lit || over)
-            draw.AddRectFilled({corner.x - ui_.px(4), corner.y},
-                               {corner.x + at_.width + ui_.px(4), corner.y + height()}, ui_.style.raised, ui_.px(3));
+            draw.AddRectFilled({corner.x - ui_.px(4), corner.y}, {corner.x + at_.cost + ui_.px(4), corner.y + height()},
+                               ui_.style.raised, ui_.px(3));
         const ImU32 usual = lit || over ? ui_.style.text : ui_.style.quiet;
         draw_text(draw, *ui_.style.mono, {corner.x, corner.y + 1}, usual,
                   level.level < 0 ? "leaf" : "L" + std::to_string(level.level));
         for (std::size_t fit = 0; fit < names_.size(); ++fit) {
             const ImVec2 row = begin_row(corner, fit, usual);
             ending(row, at_.volume, color_of(level.volume, fit, usual), value_or_dash(level.volume.values[fit]));
+            if (at_.has_more) ending(row, at_.more, color_of(level.volume, fit, usual), more_text(level.volume, fit));
             if (at_.has_fill)
                 ending(row, at_.fill, color_of(level.fill, fit, usual), share_text(level.fill.values[fit]));
             ending(row, at_.cost, color_of(level.cost, fit, usual), value_or_dash(level.cost.values[fit]));
-            if (at_.has_more) {
-                ending(row, at_.width, color_of(level.volume, fit, usual), more_text(level.volume, fit));
-            }
             const double cost = level.cost.values[fit].value_or(0);
             if (cost <= 0 || !at_.has_bar(ui_)) continue;
             const float length = (at_.bar_end - at_.bar) * static_cast<float>(cost / costliest_);
@@ -202,8 +201,8 @@ class FitTable {
     /// A query as a whole.
     void total_rows() const {
         const ImVec2 corner = ImGui::GetCursorScreenPos();
-        ImGui::GetWindowDrawList()->AddLine(corner, {corner.x + at_.width, corner.y}, ui_.style.border);
-        ImGui::Dummy({at_.width, height() + ui_.px(2)});
+        ImGui::GetWindowDrawList()->AddLine(corner, {corner.x + at_.cost, corner.y}, ui_.style.border);
+        ImGui::Dummy({at_.cost, height() + ui_.px(2)});
         ui_.mark_only("compared.total");
         const ImVec2 below{corner.x, corner.y + ui_.px(2)};
         draw_text(*ImGui::GetWindowDrawList(), *ui_.style.mono, {below.x, below.y + 1}, ui_.style.text, "all");
@@ -211,7 +210,7 @@ class FitTable {
             const ImVec2 row = begin_row(below, fit, ui_.style.text);
             const ImU32 color = color_of(fits_.cost, fit, ui_.style.text);
             ending(row, at_.cost, color, value_or_dash(fits_.cost.values[fit]));
-            if (at_.has_more) ending(row, at_.width, color, more_text(fits_.cost, fit));
+            if (at_.has_more) ending(row, at_.bar_end, color, more_text(fits_.cost, fit));
         }
     }
 

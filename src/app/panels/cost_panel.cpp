@@ -281,7 +281,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
                                to_im(with_alpha(ui.style.palette.accent, drawn || over ? 1.0f : 0.6f)), ui.px(2));
         }
         if (clicked && !copied) ui.invoke("view.level", std::to_string(i));
-        if (!copied) tell(level_tooltip(level, cost, index));
+        if (over && !copied) tell(level_tooltip(level, cost, index));
     };
     const int count = static_cast<int>(std::max(figures.size(), costs.size()));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});

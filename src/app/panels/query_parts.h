@@ -14,12 +14,14 @@
 #include <explain/trace_comparison.h>
 #include <render/drawlist/color_scale.h>
 #include <render/query/map_colors.h>
+#include <scene/drawn_agent.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -121,6 +123,19 @@ class ViewPictures {
     bool makes_one_ = false;  ///< in this frame, and has not yet
 };
 
+/// Whose bars the timeline shows: found when that changes.
+class PathBars {
+  public:
+    /// Those of the view that are not hidden. Valid until it changes.
+    const std::vector<DrawnAgent>& of(const Workspace& workspace);
+
+  private:
+    std::shared_ptr<const FittedScene> of_;  ///< `shown_` refers to it
+    std::optional<int> query_;
+    std::vector<std::string> hidden_;
+    std::vector<DrawnAgent> shown_;
+};
+
 /// How the figures of the boxes in the picture are spread: counted when they change.
 struct BoxFigures {
     std::shared_ptr<const std::vector<double>> of{};
@@ -173,6 +188,7 @@ class QueryPictures {
 
     MapPicture map;
     ViewPictures views;
+    PathBars paths;
     BoxFigures box_figures;
 
   private:

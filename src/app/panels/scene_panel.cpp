@@ -314,7 +314,7 @@ void query_order(Ui& ui, const CostInspector& costs, std::size_t count) {
         return;
     }
     if (costs.lists_hits_first()) {
-        const QueryAnswers::Known found = ui.session.answers.known();
+        const QueryAnswers::Known& found = *ui.session.answers.known();
         const bool all = found.asked == count;
         words(ui.style.quiet, std::to_string(found.hits.size()) + " hit" +
                                   (all ? "" : " of the " + std::to_string(found.asked) + " asked so far") +
@@ -337,7 +337,7 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
     if (!section(ui, "QUERIES", (all_pairs ? "all pairs, " : "") + std::to_string(count))) return;
     const NameList names = names_of_agents(ui.workspace.fitted());
     if (costs.lists_hits_first()) ui.session.answers.update();
-    const std::vector<int> listed = costs.listed();
+    const std::vector<int>& listed = costs.listed();
     const bool by_tests = costs.order == CostInspector::Order::tests && costs.costs();
     rows(
         ui, "##queries", count, kMostSceneRows,

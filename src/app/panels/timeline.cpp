@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace mobbscope::app {
 
@@ -65,13 +66,6 @@ void play_bars(Ui& ui, ImVec2 corner, ImVec2 size, const ChartAxis& time) {
         }
     }
     draw.PopClipRect();
-}
-
-/// Who is hidden has no bar.
-std::vector<DrawnAgent> shown_paths(const Workspace& workspace) {
-    std::vector<DrawnAgent> out = drawn_agents(workspace.fitted(), workspace.view());
-    std::erase_if(out, [](const DrawnAgent& agent) { return agent.hidden; });
-    return out;
 }
 
 /// The pixel of the end of the slab that stays when a drag begins: the other one's where it begins at an end's handle,
@@ -130,8 +124,9 @@ void shade_slab(const Ui& ui, const ChartAxis& axis, const ValueRange& slab, flo
     }
 }
 
-/// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub.
-void time_bars(Ui& ui, float width, float height) {
+/// When each path is there, as a bar in its colour, with the time cursor over all of them; drag to scrub. A run has no
+/// paths, but plays.
+void time_bars(Ui& ui, std::span<const DrawnAgent> paths, float width, float height) {
     const mobb::Interval span = time_span(ui.workspace);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ChartAxis axis = time_axis(span, corner.x, width);
@@ -153,12 +148,7 @@ void time_bars(Ui& ui, float width, float height) {
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(corner, {corner.x + width, corner.y + height}, ui.style.window, ui.px(3));
-    std::vector<DrawnAgent> paths;
-    if (ui.workspace.crowd()) {
-        play_bars(ui, corner, {width, height}, axis);
-    } else {
-        paths = shown_paths(ui.workspace);
-    }
+    if (ui.workspace.crowd()) play_bars(ui, corner, {width, height}, axis);
     // Of a crowd the bars melt together; they still say when somebody is there.
     const float each = height / static_cast<float>(std::max<std::size_t>(paths.size(), 1));
     const float gap = std::min(ui.px(1.5f), 0.2f * each);
@@ -194,7 +184,7 @@ void time_bars(Ui& ui, float width, float height) {
 }
 
 /// The first clock; returns where its bars have which time. `tall`: nothing stands below it but the tabs, at its left.
-ChartAxis time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tall) {
+ChartAxis time_row(Ui& ui, Playback& playback, QueryInspector& queries, PathBars& bars, bool tall) {
     const mobb::Interval span = time_span(ui.workspace);
     ImGui::BeginGroup();
     command_button(ui, playback.playing() ? "Pause" : "Play", "time.play", "timeline.time.play");
@@ -215,12 +205,13 @@ ChartAxis time_row(Ui& ui, Playback& playback, QueryInspector& queries, bool tal
     const float below = ui.px(24) + lane;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ChartAxis axis = time_axis(span, corner.x, width);
-    const std::size_t lanes = ui.workspace.crowd() ? 1 : shown_paths(ui.workspace).size();
-    const auto paths = static_cast<float>(lanes);
+    std::span<const DrawnAgent> paths;
+    if (!ui.workspace.crowd()) paths = bars.of(ui.workspace);
+    const auto lanes = static_cast<float>(ui.workspace.crowd() ? 1 : paths.size());
     const float most =
-        std::clamp(paths * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
+        std::clamp(lanes * ui.px(kMostBar), clear, std::max(clear, ImGui::GetContentRegionAvail().y - below));
     const float height = tall ? most : clear;
-    time_bars(ui, width, height);
+    time_bars(ui, paths, width, height);
     if (tall) ruler(ui, *ui.style.mono, axis, corner.y + height + lane, " s");
     ImGui::SameLine();
     ImGui::BeginDisabled(!ui.workspace.view().time || ui.workspace.crowd());
@@ -306,13 +297,25 @@ void text_button(Ui& ui, const char* label, const char* id) {
 
 }  // namespace
 
+const std::vector<DrawnAgent>& PathBars::of(const Workspace& workspace) {
+    const std::shared_ptr<const FittedScene> fitted = workspace.shown();
+    const ViewState& view = workspace.view();
+    if (of_ == fitted && query_ == view.query && hidden_ == view.hidden) return shown_;
+    shown_ = drawn_agents(*fitted, view);
+    std::erase_if(shown_, [](const DrawnAgent& agent) { return agent.hidden; });
+    of_ = fitted;
+    query_ = view.query;
+    hidden_ = view.hidden;
+    return shown_;
+}
+
 void timeline(Ui& ui, Playback& playback, QueryInspector& queries, QueryPictures& pictures) {
     if (ui.workspace.empty()) return;
     ImGui::PushID("timeline");
     const bool steps = ui.workspace.recorded() != nullptr;
     const BottomTab tab = shown_tab(ui);
     const bool tall = !steps && tab == BottomTab::recursion;
-    const ChartAxis axis = time_row(ui, playback, queries, tall);
+    const ChartAxis axis = time_row(ui, playback, queries, pictures.paths, tall);
     if (steps) step_row(ui, queries, pictures);
     if (!tall) bottom_tabs(ui);
     switch (tab) {

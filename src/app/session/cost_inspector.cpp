@@ -71,14 +71,18 @@ bool CostInspector::lists_hits_first() const {
     return order == Order::hits && workspace_.fitted().queries().size() > std::size_t{kFewQueries};
 }
 
-std::vector<int> CostInspector::listed() const {
+const std::vector<int>& CostInspector::listed() const {
     if (order == Order::tests && costs()) return costs()->by_tests;
-    std::vector<int> out(workspace_.fitted().queries().size());
+    const std::shared_ptr<const FittedScene> of = workspace_.shown();
+    const std::shared_ptr<const QueryAnswers::Known> known = lists_hits_first() ? answers_.known() : nullptr;
+    std::vector<int>& out = listed_.queries;
+    if (listed_.of == of && listed_.hits_first == known) return out;
+    listed_.of = of;
+    listed_.hits_first = known;
+    out.resize(of->queries().size());
     std::iota(out.begin(), out.end(), 0);
-    if (!lists_hits_first()) return out;
-    const QueryAnswers::Known known = answers_.known();
-    const auto is_hit = [&](int query) { return std::ranges::binary_search(known.hits, query); };
-    std::stable_partition(out.begin(), out.end(), is_hit);
+    const auto is_hit = [&](int query) { return std::ranges::binary_search(known->hits, query); };
+    if (known) std::stable_partition(out.begin(), out.end(), is_hit);
     return out;
 }
 

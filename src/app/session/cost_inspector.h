@@ -36,8 +36,8 @@ class CostInspector {
 
     /// Whether those that hit are listed first: not of a few, which are seen all at once.
     bool lists_hits_first() const;
-    /// The queries in the order of their list.
-    std::vector<int> listed() const;
+    /// The queries in the order of their list. Valid until that changes.
+    const std::vector<int>& listed() const;
 
   private:
     void take(const std::shared_ptr<const FittedScene>& in, const std::shared_ptr<const SceneCosts>& found);
@@ -46,6 +46,12 @@ class CostInspector {
     Jobs& jobs_;
     QueryAnswers& answers_;
     std::function<void()> then_;  ///< of the count that is under way
+    struct Listed {
+        std::shared_ptr<const FittedScene> of;
+        std::shared_ptr<const QueryAnswers::Known> hits_first;  ///< null: they stand in their order
+        std::vector<int> queries;
+    };
+    mutable Listed listed_;  ///< sorting half a million takes longer than a frame
 };
 
 /// "walk 2.1": a node of a clip's tree.

@@ -22,6 +22,7 @@ void QueryAnswers::update() {
     if (of_ == now) return;
     of_ = now;
     made_ = std::make_shared<Made>();
+    known_ = std::make_shared<const Known>();
     job_ = std::make_unique<Job>(
         "Answering queries",
         [fitted = now, made = made_](JobControl& control) -> Job::Finish {
@@ -46,15 +47,18 @@ void QueryAnswers::update() {
     if (!options_.attended) job_->wait(std::chrono::hours(24));
 }
 
-QueryAnswers::Known QueryAnswers::known() const {
-    if (!made_) return {};
-    const std::scoped_lock lock(made_->mutex);
-    return made_->known;
+const std::shared_ptr<const QueryAnswers::Known>& QueryAnswers::known() const {
+    if (made_) {
+        const std::scoped_lock lock(made_->mutex);
+        if (known_->asked != made_->known.asked) known_ = std::make_shared<const Known>(made_->known);
+    }
+    return known_;
 }
 
 void QueryAnswers::end_work() {
     job_.reset();
     made_.reset();
+    known_ = std::make_shared<const Known>();
     of_.reset();
 }
 

@@ -21,12 +21,12 @@ class QueryAnswers {
 
     /// Whoever shows the list calls this before each frame: a changed scene is asked anew.
     void update();
-    /// As far as it is known.
     struct Known {
         std::size_t asked = 0;  ///< the first so many
         std::vector<int> hits;  ///< of these, in order
     };
-    Known known() const;
+    /// As far as it is known, never null. The same pointer as long as nothing more is known.
+    const std::shared_ptr<const Known>& known() const;
     void end_work();
 
   private:
@@ -37,6 +37,7 @@ class QueryAnswers {
     Desktop*& desktop_;
     std::shared_ptr<const FittedScene> of_;
     std::shared_ptr<Made> made_;
+    mutable std::shared_ptr<const Known> known_ = std::make_shared<const Known>();  ///< as somebody last asked
     std::unique_ptr<Job> job_;
 };
 
