@@ -377,7 +377,7 @@ std::string with_caret(std::string_view text, const FilterError& error) {
     const auto begins_character = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; };
     // What is near the place is shown of a long text.
     std::size_t from = before.size(), to = 0, characters = 0;
-    for (; from > 0 && characters < kMostAround; --from) characters += begins_character(before[from - 1]) ? 1 : 0;
+    for (; from > 0 && characters < kMostAround; --from) characters += begins_character(before[from - 1]) ? 1u : 0u;
     for (std::size_t seen = 0; to < after.size(); ++to) {
         if (begins_character(after[to]) && ++seen > kMostAround) break;
     }
