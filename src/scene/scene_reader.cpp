@@ -583,11 +583,9 @@ Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrid
     check_file_name(file);
     const bool is_scene = is_scene_file(file);
     if (!is_scene && progress) progress(0, 1);
-    const auto parse = [&] {
-        const InputBytes input = read_input(file);
-        return parse_scene(input.bytes, file.string(), file.parent_path(), overrides, progress, importer);
-    };
-    Scene scene = is_scene ? parse() : scene_of_clips(file, overrides);
+    const InputBytes input = is_scene ? read_input(file) : InputBytes();
+    Scene scene = is_scene ? parse_scene(input.bytes, file.string(), file.parent_path(), overrides, progress, importer)
+                           : scene_of_clips(file, overrides);
     scene.file = file;
     return scene;
 }
