@@ -380,7 +380,8 @@ std::vector<FitFinding> fit_findings(const mobb::Tree& tree, std::span<const dou
     };
     QueryWorkload workload = standard_workload(std::array{tree.shared_clip()}, kPlacements, 0);
     // Around clips at the end of the world nothing can be placed.
-    if (!std::ranges::all_of(workload.queries, mobb::is_valid, &ClipQuery::place_b)) return {};
+    const auto can_be = [&](const mobb::Placement& b) { return mobb::is_valid(b, tree.clip().most_start()); };
+    if (!std::ranges::all_of(workload.queries, can_be, &ClipQuery::place_b)) return {};
     const Trials trials(tree, std::move(workload), progress);
     if (mobb::info(tree.options().tree).splits()) {
         add(loose_levels(tree, trials));

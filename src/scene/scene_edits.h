@@ -36,7 +36,7 @@ class UnusedNames {
 void add_agents_for_clips(Scene& scene);
 
 /// The agent's clip placed elsewhere. Its queries follow; traces recorded of them are dropped, expectations stay.
-/// Throws std::invalid_argument if a number is out of range (mobb::is_valid).
+/// Throws std::invalid_argument if a number is out of range for the clip (mobb::checked).
 void place_agent(Scene& scene, int agent, const mobb::Placement& placement);
 
 /// A view calls an agent by another name.

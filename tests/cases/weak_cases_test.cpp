@@ -56,14 +56,15 @@ TEST(WeakCases, AreThoseThatSeeHardlyAnything) {
 CaseResult bringing(const CaseFile& file, const std::string& keys) {
     CaseResult out;
     out.file = file;
-    out.fresh = {{file.file, R"({"mobbscope_case": 1, "scene": "scene.json", "size": "160x120", )" + keys + "}",
+    out.fresh = {{file.file, R"({"mobbscope_case": 1, "scene": "scene.json", )" + keys + "}",
                   golden_bytes(file.file)}};
     return out;
 }
 
 TEST(WeakCases, ACaseThatAReportBringsIsSaidToBeOne) {
     const CaseFolder cases;
-    const CaseFile file = cases.add("a", R"("hold": ["picture", "answers"], "threshold": 4)");
+    const CaseFile file = cases.write(
+        "a", R"({"mobbscope_case": 1, "scene": "scene.json", "hold": ["picture", "answers"], "threshold": 4})");
     const auto words = [&](const std::string& keys) {
         const std::vector<std::string> lines = words_on_brought_case(bringing(file, keys));
         EXPECT_NE(lines.front().find("a.case.json is the case itself, no golden: "), std::string::npos);

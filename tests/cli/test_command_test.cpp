@@ -957,7 +957,7 @@ class AskedTest : public DrawnTestCommandTest {
         return run_program(all, {}, cases.path() / "lines");
     }
     Result accept(const std::vector<std::string>& names = {}) const {
-        return run_program(with({"test", goldens.string(), "--accept", output.string(), "--"}, names));
+        return run_program(with({"test", goldens.string(), "--accept", output.string()}, names));
     }
 
     const std::filesystem::path goldens = cases.path() / "goldens";

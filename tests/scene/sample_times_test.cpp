@@ -35,8 +35,8 @@ std::string run_of(const std::string& dt, const std::string& start) {
 
 std::vector<std::string> warnings_of(const std::string& scene) {
     std::vector<std::string> out;
-    for (const ImportWarning& warning : parse_scene(scene, "s.json", "").clips[0].facts.warnings)
-        out.push_back(warning.text);
+    const Scene read = parse_scene(scene, "s.json", "");
+    for (const ImportWarning& warning : read.clips[0].facts.warnings) out.push_back(warning.text);
     return out;
 }
 

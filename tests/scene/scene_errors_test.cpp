@@ -53,7 +53,7 @@ TEST(SceneErrors, ClipsAreChecked) {
         {R"({"source": "x.csv", "unit": "ell"})", "/clips/c/unit: unit must be"},
         {R"({"source": "x.csv", "trim": [2, 1]})", "/clips/c/trim: trim must be"},
         {R"({"source": "x.csv", "radius": -1, "fps": 30})", "/clips/c/radius: radius must be"},
-        {R"({"source": "x.csv", "dt": 1e13})", "/clips/c/dt: dt must be over 2e-9 seconds"},
+        {R"({"source": "x.csv", "dt": 1e13})", "/clips/c/dt: dt must be over 2e-09 seconds"},
         {R"({"source": "x.csv", "id": 1.5})", "/clips/c/id: 1.5 is not exact as a number; write the id as a string"},
         {R"({"source": "x.csv", "id": 9007199254740992})", "write the id as a string"},
         {R"({"source": "x.csv", "up": "z"})", "/clips/c/up: up does not apply to .csv files; leave it out"},
