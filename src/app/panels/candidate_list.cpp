@@ -183,10 +183,9 @@ void last_choice(Ui& ui, CrowdInspector& crowds) {
     if (all.empty()) words(ui.style.quiet, "No candidate matches.");
     const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
     const int pointed_out = crowds.candidate();
-    rows(
-        ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
-        [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)], names); },
-        present_row(all, [&](const ListedCandidate& of) { return static_cast<int>(of.index) == pointed_out; }));
+    rows(ui, "##candidates", static_cast<int>(all.size()), kMostCandidateRows,
+         present_row(all, [&](const ListedCandidate& of) { return static_cast<int>(of.index) == pointed_out; }),
+         [&](int i) { candidate_row(ui, crowds, choice, all[static_cast<std::size_t>(i)], names); });
     const bool opens = pointed_out >= 0 && choice.candidates[static_cast<std::size_t>(pointed_out)].blocker;
     ImGui::BeginDisabled(!opens);
     command_button(ui, "open as a scene", "crowd.open_candidate", "crowd.open_candidate");

@@ -47,30 +47,27 @@ void plays(Ui& ui) {
     if (!section(ui, "PLAYS", cleaned(agent.name) + ", " + std::to_string(agent.plays.size()) + " plays")) return;
     const NameList names(ui.workspace.scene().clips.size(),
                          [&](std::size_t i) { return ui.workspace.scene().clips[i].name; });
-    rows(
-        ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows,
-        [&](int i) {
-            const Play& play = agent.plays[static_cast<std::size_t>(i)];
-            const GraphMove& move = ui.workspace.scene().graph->moves[static_cast<std::size_t>(play.move)];
-            const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
-                               : play.kind == PlayKind::forced ? "forced  "
-                                                               : "";
-            const Palette& palette = ui.style.palette;
-            const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
-                                : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
-                                                                 : 0;
-            const std::string& name = ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
-            if (row(ui, {.mark = "play." + std::to_string(i),
-                         .name = name,
-                         .remark = kind + at_time(play.placement.start),
-                         .selected = static_cast<std::size_t>(i) == now,
-                         .remark_color = color,
-                         .fitted = [&](float room) { return fitted_name(name, room, names); }})) {
-                ui.invoke("crowd.play", std::to_string(i));
-            }
-            context_menu(ui, [&] { return play_menu(i); });
-        },
-        static_cast<int>(now));
+    rows(ui, "##plays", static_cast<int>(agent.plays.size()), kMostCrowdRows, static_cast<int>(now), [&](int i) {
+        const Play& play = agent.plays[static_cast<std::size_t>(i)];
+        const GraphMove& move = ui.workspace.scene().graph->moves[static_cast<std::size_t>(play.move)];
+        const char* kind = play.kind == PlayKind::pivoted  ? "pivoted  "
+                           : play.kind == PlayKind::forced ? "forced  "
+                                                           : "";
+        const Palette& palette = ui.style.palette;
+        const ImU32 color = play.kind == PlayKind::forced    ? to_im(readable(palette.hit, palette))
+                            : play.kind == PlayKind::pivoted ? to_im(readable(palette.overlap, palette))
+                                                             : 0;
+        const std::string& name = ui.workspace.scene().clips[static_cast<std::size_t>(move.clip)].name;
+        if (row(ui, {.mark = "play." + std::to_string(i),
+                     .name = name,
+                     .remark = kind + at_time(play.placement.start),
+                     .selected = static_cast<std::size_t>(i) == now,
+                     .remark_color = color,
+                     .fitted = [&](float room) { return fitted_name(name, room, names); }})) {
+            ui.invoke("crowd.play", std::to_string(i));
+        }
+        context_menu(ui, [&] { return play_menu(i); });
+    });
 }
 
 void conflicts(Ui& ui, CrowdInspector& crowds) {
@@ -86,35 +83,33 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
     }
     words(ui.style.quiet, crowds.conflict_summary() + ", the deepest first");
     const NameList names = names_of_agents(ui.workspace.fitted());
-    rows(
-        ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows,
-        [&](int i) {
-            const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
-            const bool has_choice = ui.workspace.crowd() != nullptr;
-            const bool unexplained = has_choice && !was_forced(*ui.workspace.crowd(), conflict);
-            if (row(ui, {.mark = "conflict." + std::to_string(i),
-                         .name = conflict.a.name + " and " + conflict.b.name,
-                         .remark = (unexplained ? "! " : "") + at_time(conflict.begin()) + "  " +
-                                   with_unit(-conflict.facts.deepest.least_clearance, "m"),
-                         .selected = ui.workspace.conflict == i,
-                         .remark_color = to_im(readable(ui.style.palette.hit, ui.style.palette)),
-                         .fitted = [&](float room) {
-                             return fitted_pair(conflict.a.name, " and ", conflict.b.name, room, names);
-                         }})) {
-                const bool twice = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] == 2;
-                if (twice && has_choice) {
-                    ui.invoke("conflicts.choice");
-                } else {
-                    ui.invoke("conflicts.go", std::to_string(i));
-                }
+    const int present = std::max(ui.workspace.conflict, 0);
+    rows(ui, "##conflicts", static_cast<int>(found->size()), kMostCrowdRows, present, [&](int i) {
+        const SceneConflict& conflict = (*found)[static_cast<std::size_t>(i)];
+        const bool has_choice = ui.workspace.crowd() != nullptr;
+        const bool unexplained = has_choice && !was_forced(*ui.workspace.crowd(), conflict);
+        if (row(ui, {.mark = "conflict." + std::to_string(i),
+                     .name = conflict.a.name + " and " + conflict.b.name,
+                     .remark = (unexplained ? "! " : "") + at_time(conflict.begin()) + "  " +
+                               with_unit(-conflict.facts.deepest.least_clearance, "m"),
+                     .selected = ui.workspace.conflict == i,
+                     .remark_color = to_im(readable(ui.style.palette.hit, ui.style.palette)),
+                     .fitted = [&](float room) {
+                         return fitted_pair(conflict.a.name, " and ", conflict.b.name, room, names);
+                     }})) {
+            const bool twice = ImGui::IsMouseReleased(0) && ImGui::GetIO().MouseClickedLastCount[0] == 2;
+            if (twice && has_choice) {
+                ui.invoke("conflicts.choice");
+            } else {
+                ui.invoke("conflicts.go", std::to_string(i));
             }
-            context_menu(ui, [&] { return conflict_menu(i); });
-            if (!ImGui::IsItemHovered()) return;
-            ImGui::SetTooltip("%s%s%s", sentence(conflict).c_str(),
-                              unexplained ? ".\n! No play was forced: an answer was wrong, or the run was edited" : "",
-                              has_choice ? ".\nDouble-click goes to the choice that made it" : "");
-        },
-        std::max(ui.workspace.conflict, 0));
+        }
+        context_menu(ui, [&] { return conflict_menu(i); });
+        if (!ImGui::IsItemHovered()) return;
+        ImGui::SetTooltip("%s%s%s", sentence(conflict).c_str(),
+                          unexplained ? ".\n! No play was forced: an answer was wrong, or the run was edited" : "",
+                          has_choice ? ".\nDouble-click goes to the choice that made it" : "");
+    });
     command_button(ui, "back to all", "agent.all_in_full", "conflicts.back");
     flow(button_width("open as a scene"));
     ImGui::BeginDisabled(ui.workspace.conflict < 0);
@@ -152,27 +147,25 @@ void special_plays(Ui& ui, const CrowdInspector& crowds) {
         const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(play.agent)];
         return ui.workspace.view().follow == agent.name && last_chosen(agent, now) == play.play;
     };
-    rows(
-        ui, "##special plays", static_cast<int>(all.size()), kMostSpecialRows,
-        [&](int i) {
-            const SpecialPlay& play = all[static_cast<std::size_t>(i)];
-            const Palette& palette = ui.style.palette;
-            const bool is_forced = play.kind == PlayKind::forced;
-            const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(play.agent)];
-            const std::string why = cleaned(agent.name) + ": " + crowds.why(play, outcome_counts);
-            if (row(ui, {.mark = "special." + std::to_string(i),
-                         .name = why,
-                         .remark = (is_forced ? "forced  " : "turned  ") + at_time(play.time),
-                         .selected = is_followed(play),
-                         .remark_color = to_im(readable(is_forced ? palette.hit : palette.overlap, palette)),
-                         .fitted = [&](float room) { return fitted_text(why, room); }})) {
-                ui.invoke("crowd.special_play", std::to_string(i));
-            }
-            if (ImGui::IsItemHovered())
-                ImGui::SetTooltip("%s\nchosen at %.2f s", why.c_str(),
-                                  agent.plays[static_cast<std::size_t>(play.play)].chosen_at);
-        },
-        present_row(all, is_followed));
+    const int present = present_row(all, is_followed);
+    rows(ui, "##special plays", static_cast<int>(all.size()), kMostSpecialRows, present, [&](int i) {
+        const SpecialPlay& play = all[static_cast<std::size_t>(i)];
+        const Palette& palette = ui.style.palette;
+        const bool is_forced = play.kind == PlayKind::forced;
+        const CrowdAgent& agent = ui.workspace.crowd()->agents[static_cast<std::size_t>(play.agent)];
+        const std::string why = cleaned(agent.name) + ": " + crowds.why(play, outcome_counts);
+        if (row(ui, {.mark = "special." + std::to_string(i),
+                     .name = why,
+                     .remark = (is_forced ? "forced  " : "turned  ") + at_time(play.time),
+                     .selected = is_followed(play),
+                     .remark_color = to_im(readable(is_forced ? palette.hit : palette.overlap, palette)),
+                     .fitted = [&](float room) { return fitted_text(why, room); }})) {
+            ui.invoke("crowd.special_play", std::to_string(i));
+        }
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s\nchosen at %.2f s", why.c_str(),
+                              agent.plays[static_cast<std::size_t>(play.play)].chosen_at);
+    });
 }
 
 }  // namespace

@@ -94,10 +94,9 @@ void proof_section(Ui& ui, const QueryFindings& findings) {
     const QueryProof& proof = findings.proof;
     const auto count = static_cast<std::int64_t>(proof.lines.size());
     if (count == 0 || !section(ui, "THE PROOF", counted(count, "line", "lines"))) return;
-    rows(
-        ui, "proof", static_cast<int>(count), kMostRows,
-        [&](int i) { line_row(ui, findings, static_cast<std::size_t>(i)); },
-        static_cast<int>(selected_line(ui.workspace, proof).value_or(0)));
+    rows(ui, "proof", static_cast<int>(count), kMostRows,
+         static_cast<int>(selected_line(ui.workspace, proof).value_or(0)),
+         [&](int i) { line_row(ui, findings, static_cast<std::size_t>(i)); });
     if (proof.lines.size() > kMostWalls)
         words(ui.style.quiet, "The " + std::to_string(kMostWalls) + " tightest are drawn.");
     const ViewState& view = ui.workspace.view();
@@ -111,10 +110,9 @@ void proof_section(Ui& ui, const QueryFindings& findings) {
     const bool open = ImGui::TreeNodeEx(label.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     ui.mark("proof.ends");
     if (!open) return;
-    rows(
-        ui, "ends", static_cast<int>(proof.ends.size()), kMostRows,
-        [&](int i) { end_row(ui, findings, static_cast<std::size_t>(i)); },
-        present_row(proof.ends, [&](const TraversalEnd& end) { return end.step == ui.workspace.step(); }));
+    rows(ui, "ends", static_cast<int>(proof.ends.size()), kMostRows,
+         present_row(proof.ends, [&](const TraversalEnd& end) { return end.step == ui.workspace.step(); }),
+         [&](int i) { end_row(ui, findings, static_cast<std::size_t>(i)); });
 }
 
 void proof_bars(Ui& ui, const QueryFindings& findings, const ChartAxis& time, ImVec2 corner, ImVec2 size) {

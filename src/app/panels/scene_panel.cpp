@@ -164,10 +164,9 @@ void agents(Ui& ui) {
     const char* title = has_agents ? "AGENTS" : in_grid ? "CLIPS IN A GRID" : "CLIPS WHERE THEY ARE";
     if (!section(ui, title, count_text(shown.size(), static_cast<std::size_t>(count)))) return;
     const Selection& selection = ui.workspace.selection;
-    rows(
-        ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
-        [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)], names); },
-        present_row(shown, [&](int i) { return selection.on_path() && selection.path.agent == i; }));
+    rows(ui, "##agents", static_cast<int>(shown.size()), kMostSceneRows,
+         present_row(shown, [&](int i) { return selection.on_path() && selection.path.agent == i; }),
+         [&](int i) { path_row(ui, fitted, shown[static_cast<std::size_t>(i)], names); });
     if (shows_bare_clips(ui.workspace)) {
         if (small_button(ui, "make these agents", "scene.make_agents",
                          "An agent for every clip, where it is: agents can be placed and queried")) {
@@ -287,15 +286,13 @@ void clips(Ui& ui) {
     if (!section(ui, "CLIPS", count_text(shown.size(), all.size()))) return;
     const std::vector<ClipLine> lines = clip_lines(ui.workspace, shown);
     const NameList names(all.size(), [&](std::size_t i) { return all[i].name; });
-    rows(
-        ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows,
-        [&](int i) {
-            const ClipLine& line = lines[static_cast<std::size_t>(i)];
-            line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12), names);
-        },
-        present_row(lines, [&](const ClipLine& line) {
-            return ui.workspace.selection == Selection{Selection::Kind::clip, {}, line.clip};
-        }));
+    const int present = present_row(lines, [&](const ClipLine& line) {
+        return ui.workspace.selection == Selection{Selection::Kind::clip, {}, line.clip};
+    });
+    rows(ui, "##clips", static_cast<int>(lines.size()), kMostSceneRows, present, [&](int i) {
+        const ClipLine& line = lines[static_cast<std::size_t>(i)];
+        line.clip < 0 ? group_row(ui, line.group) : clip_row(ui, line.clip, line.group < 0 ? 0 : ui.px(12), names);
+    });
     if (ui.workspace.crowd()) return;
     if (small_button(ui, "+ files", "scene.add_files", "Add clips, or the clips and agents of another scene")) {
         ui.invoke("file.add");
@@ -339,41 +336,37 @@ void query_list(Ui& ui, QueryInspector& queries, const CostInspector& costs) {
     if (costs.lists_hits_first()) ui.session.answers.update();
     const std::vector<int>& listed = costs.listed();
     const bool by_tests = costs.order == CostInspector::Order::tests && costs.costs();
-    rows(
-        ui, "##queries", count, kMostSceneRows,
-        [&](int place) {
-            const int i = listed[static_cast<std::size_t>(place)];
-            const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(i)];
-            const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
-            const Selection self{Selection::Kind::query, {}, i};
-            const bool hit = answer.contact.has_value();
-            std::optional<std::string> unexpected = disagreement(query, answer);
-            if (const std::string* stored = ui.workspace.stored_difference(i); stored && !unexpected)
-                unexpected = *stored;
-            const Palette& palette = ui.style.palette;
-            const std::string found = by_tests
-                                          ? counted(costs.costs()->tests[static_cast<std::size_t>(i)], "test", "tests")
-                                      : hit ? formatted("hit %.2f s", answer.contact->time)
-                                            : "miss";
-            if (row(ui, {.mark = "query." + std::to_string(i),
-                         .name = query.a.name + " against " + query.b.name,
-                         .remark = (unexpected ? "! " : "") + found,
-                         .selected = ui.workspace.view().query == i,
-                         .hovered = ui.workspace.hovered == self,
-                         .remark_color = to_im(readable(hit ? palette.hit : palette.separated, palette)),
-                         .fitted = [&](float room) {
-                             return fitted_pair(query.a.name, " against ", query.b.name, room, names);
-                         }})) {
-                ui.invoke(ui.workspace.view().query == i ? "query.none" : "query.select",
-                          ui.workspace.view().query == i ? "" : std::to_string(i));
-            }
-            row_menu(ui, self);
-            if (!ImGui::IsItemHovered()) return;
-            ui.hovered = self;
-            ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
-                              unexpected ? ("\nNot as the file has it: " + *unexpected).c_str() : "");
-        },
-        present_row(listed, [&](int i) { return ui.workspace.view().query == i; }));
+    const int present = present_row(listed, [&](int i) { return ui.workspace.view().query == i; });
+    rows(ui, "##queries", count, kMostSceneRows, present, [&](int place) {
+        const int i = listed[static_cast<std::size_t>(place)];
+        const SceneQuery query = ui.workspace.fitted().queries()[static_cast<std::size_t>(i)];
+        const Answer& answer = queries.answer_of(static_cast<std::size_t>(i));
+        const Selection self{Selection::Kind::query, {}, i};
+        const bool hit = answer.contact.has_value();
+        std::optional<std::string> unexpected = disagreement(query, answer);
+        if (const std::string* stored = ui.workspace.stored_difference(i); stored && !unexpected) unexpected = *stored;
+        const Palette& palette = ui.style.palette;
+        const std::string found = by_tests ? counted(costs.costs()->tests[static_cast<std::size_t>(i)], "test", "tests")
+                                  : hit    ? formatted("hit %.2f s", answer.contact->time)
+                                           : "miss";
+        if (row(ui, {.mark = "query." + std::to_string(i),
+                     .name = query.a.name + " against " + query.b.name,
+                     .remark = (unexpected ? "! " : "") + found,
+                     .selected = ui.workspace.view().query == i,
+                     .hovered = ui.workspace.hovered == self,
+                     .remark_color = to_im(readable(hit ? palette.hit : palette.separated, palette)),
+                     .fitted = [&](float room) {
+                         return fitted_pair(query.a.name, " against ", query.b.name, room, names);
+                     }})) {
+            ui.invoke(ui.workspace.view().query == i ? "query.none" : "query.select",
+                      ui.workspace.view().query == i ? "" : std::to_string(i));
+        }
+        row_menu(ui, self);
+        if (!ImGui::IsItemHovered()) return;
+        ui.hovered = self;
+        ImGui::SetTooltip("%s%s", sentence(query, answer.contact).c_str(),
+                          unexpected ? ("\nNot as the file has it: " + *unexpected).c_str() : "");
+    });
     if (count > 1) query_order(ui, costs, static_cast<std::size_t>(count));
     if (count == 0)
         words(ui.style.quiet, ui.workspace.scene().agents.empty() ? "queries need agents: make agents of these clips"

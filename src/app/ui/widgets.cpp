@@ -652,7 +652,7 @@ std::optional<double> number_field(Ui& ui, const NumberField& field) {
     return wanted ? wanted : stepped_to;
 }
 
-void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw, int present) {
+void rows(Ui& ui, const char* name, int count, int most_rows, int present, const std::function<void(int)>& draw) {
     const float height = ImGui::GetFrameHeight();
     const bool scrolls = count > most_rows;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(8), 0});

@@ -157,7 +157,11 @@ std::optional<double> number_field(Ui& ui, const NumberField& field);
 
 /// A list with a row of equal height for each item: as high as its rows, at most `most_rows` before it scrolls.
 /// `present`: the row that a list which scrolls opens at.
-void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw, int present = 0);
+void rows(Ui& ui, const char* name, int count, int most_rows, int present, const std::function<void(int)>& draw);
+/// Of a list without a present row.
+inline void rows(Ui& ui, const char* name, int count, int most_rows, const std::function<void(int)>& draw) {
+    rows(ui, name, count, most_rows, 0, draw);
+}
 /// Where in a list the first thing stands that `is` present; 0: nowhere.
 template <class List, class Is>
 int present_row(const List& list, const Is& is) {
