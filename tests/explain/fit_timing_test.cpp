@@ -22,7 +22,7 @@ namespace {
 
 using mobb::test::Random;
 
-std::vector<mobb::ClipPtr> some_clips() {
+std::vector<mobb::ClipPtr> two_clips() {
     Random random(5);
     std::vector<mobb::ClipPtr> out;
     for (const int count : {40, 90}) {
@@ -33,7 +33,7 @@ std::vector<mobb::ClipPtr> some_clips() {
     return out;
 }
 
-FitTrees fitted(const std::vector<mobb::ClipPtr>& clips, const mobb::FitOptions& fit) {
+FitTrees trees_of_fit(const std::vector<mobb::ClipPtr>& clips, const mobb::FitOptions& fit) {
     FitTrees out;
     for (const mobb::ClipPtr& clip : clips) out.push_back(std::make_shared<const mobb::Tree>(clip, fit));
     return out;
@@ -44,13 +44,13 @@ std::vector<double> same_times(std::span<const ClipQuery> queries, std::size_t s
 }
 
 /// Two fits on a loaded machine: how long each takes, of which stretch of queries more than the other, and noise.
-struct Pair {
+struct PlantedPair {
     double first, second;
     std::uint64_t seed;
 
     std::vector<FitTime> measured(Protocol protocol) const {
-        const std::vector<mobb::ClipPtr> clips = some_clips();
-        const std::vector<FitTrees> fits{fitted(clips, {.leaf = 5}), fitted(clips, {.leaf = 20})};
+        const std::vector<mobb::ClipPtr> clips = two_clips();
+        const std::vector<FitTrees> fits{trees_of_fit(clips, {.leaf = 5}), trees_of_fit(clips, {.leaf = 20})};
         const QueryWorkload workload = standard_workload(clips, 4000, seed);
         Random noise(seed);
         double load = 1;
@@ -82,7 +82,7 @@ TEST(FitTiming, OfFiftyPairsTwentyPerCentApartMostAreDecidedAndNoneWrongly) {
         int decided = 0, wrong = 0;
         for (std::uint64_t seed = 1; seed <= 50; ++seed) {
             const bool first_is_faster = seed % 2 == 0;
-            const Pair pair{first_is_faster ? 100.0 : 120.0, first_is_faster ? 120.0 : 100.0, seed};
+            const PlantedPair pair{first_is_faster ? 100.0 : 120.0, first_is_faster ? 120.0 : 100.0, seed};
             const std::vector<FitTime> times = pair.measured(protocol);
             if (times[0].beats(times[1]) || times[1].beats(times[0])) ++decided;
             if (first_is_faster ? times[1].beats(times[0]) : times[0].beats(times[1])) ++wrong;
@@ -96,7 +96,7 @@ TEST(FitTiming, FitsThatAreAlikeAreNotToldApart) {
     int decided = 0;
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         for (const Protocol protocol : kProtocols) {
-            const std::vector<FitTime> times = Pair{100, 100, seed}.measured(protocol);
+            const std::vector<FitTime> times = PlantedPair{100, 100, seed}.measured(protocol);
             if (times[0].beats(times[1]) || times[1].beats(times[0])) ++decided;
         }
     }
@@ -104,9 +104,10 @@ TEST(FitTiming, FitsThatAreAlikeAreNotToldApart) {
 }
 
 TEST(FitTiming, FitsTakeTurnsInEveryOrderOverTreesThatMove) {
-    const std::vector<mobb::ClipPtr> clips = some_clips();
-    const std::vector<FitTrees> fits{fitted(clips, {.leaf = 2}), fitted(clips, {.leaf = 5}), fitted(clips, {.leaf = 9}),
-                                     fitted(clips, {.tree = mobb::TreeKind::blocks})};
+    const std::vector<mobb::ClipPtr> clips = two_clips();
+    const std::vector<FitTrees> fits{trees_of_fit(clips, {.leaf = 2}), trees_of_fit(clips, {.leaf = 5}),
+                                     trees_of_fit(clips, {.leaf = 9}),
+                                     trees_of_fit(clips, {.tree = mobb::TreeKind::blocks})};
     const QueryWorkload workload = standard_workload(clips, 5000, 1);
     for (const Protocol protocol : kProtocols) {
         std::vector<const mobb::Clip*> asked;
@@ -141,8 +142,8 @@ TEST(FitTiming, FitsTakeTurnsInEveryOrderOverTreesThatMove) {
 }
 
 TEST(FitTiming, ASlowSpellOfTheMachineCostsNoFit) {
-    const std::vector<mobb::ClipPtr> clips = some_clips();
-    const std::vector<FitTrees> fits{fitted(clips, {.leaf = 2}), fitted(clips, {.leaf = 9})};
+    const std::vector<mobb::ClipPtr> clips = two_clips();
+    const std::vector<FitTrees> fits{trees_of_fit(clips, {.leaf = 2}), trees_of_fit(clips, {.leaf = 9})};
     const QueryWorkload workload = standard_workload(clips, 4096, 1);
     int turn = 0;
     const FitTimer timer = [&](Protocol, const FitTrees& trees, std::span<const ClipQuery> some, std::size_t stretch) {
@@ -158,10 +159,10 @@ TEST(FitTiming, ASlowSpellOfTheMachineCostsNoFit) {
 }
 
 TEST(FitTiming, EveryStretchIsTimed) {
-    const std::vector<mobb::ClipPtr> clips = some_clips();
+    const std::vector<mobb::ClipPtr> clips = two_clips();
     const QueryWorkload workload = standard_workload(clips, 100, 1);
     for (const mobb::TreeKind kind : {mobb::TreeKind::umobb, mobb::TreeKind::blocks}) {
-        const FitTrees trees = fitted(clips, {.tree = kind});
+        const FitTrees trees = trees_of_fit(clips, {.tree = kind});
         for (const Protocol protocol : kProtocols) {
             const std::vector<double> times = time_queries(protocol, trees, workload.queries, 30);
             ASSERT_EQ(times.size(), 4u);

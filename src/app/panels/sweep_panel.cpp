@@ -52,8 +52,9 @@ void tell_row(const SweepResult& result, const SweepRow& row) {
     for (const Protocol protocol : kProtocols) {
         const std::optional<FitTime>& time = row.time(protocol);
         if (!time) continue;
-        text += "measured, " + std::string(name(protocol)) + ": " + cost_text(time->ns) + " a query, \u00B1 " +
-                figure(time->error, 2) + '\n';
+        text += "measured, " + std::string(name(protocol)) + ": " + cost_text(time->ns) + " a query";
+        if (std::isfinite(time->error)) text += ", \u00B1 " + figure(time->error, 2);
+        text += '\n';
     }
     if (const std::optional<SweepEstimate>& estimate = row.estimate) {
         text += "estimated: " + cost_text(estimate->cost.mean) + " a query";
