@@ -21,8 +21,8 @@ bool shows_levels(const ViewState& view) {
 
 bool has_value(double value) { return !std::isnan(value); }
 
-/// `scale` has the ends that somebody has chosen; none: it is spread over the range.
-void spread(BoxColors& colors, const ColoredFigure& figure, const std::optional<ValueRange>& chosen) {
+/// Makes the scale, with the ends that somebody has chosen; none: it is spread over the range.
+void set_scale(BoxColors& colors, const ColoredFigure& figure, const std::optional<ValueRange>& chosen) {
     colors.scale = color_scale(figure, chosen ? colors.values : colors.range, chosen);
     colors.scale.known = std::ranges::any_of(colors.values, has_value);
 }
@@ -63,7 +63,7 @@ std::optional<BoxColors> box_colors(SceneFigures& figures, const std::shared_ptr
     // A level has one colour in all pictures of trees that are so deep.
     if (field->field == NodeField::level) out.range = {0, static_cast<double>(deepest)};
     out.unknown = why_unknown(out, *fitted, field->field);
-    spread(out, colored_figure(*field), view.color_range);
+    set_scale(out, colored_figure(*field), view.color_range);
     return out;
 }
 
@@ -88,7 +88,7 @@ void share_scale(const std::vector<BoxColors*>& beside) {
     }
     for (auto& [one, range] : shared) {
         one->range = std::move(range);
-        if (!one->scale.chosen) spread(*one, ColoredFigure(one->scale.figure), std::nullopt);
+        if (!one->scale.chosen) set_scale(*one, ColoredFigure(one->scale.figure), std::nullopt);
     }
 }
 
