@@ -16,11 +16,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::app {
@@ -42,7 +44,24 @@ struct FigureWindow : FolderWindow<CrossingFolder> {
         button(false);
     }
     const ViewState& view() const { return session.workspace.view(); }
+    /// The colour of a pixel of the window.
+    Rgba pixel(glm::vec2 at) {
+        const Image image = window.shell().read_back();
+        const std::uint8_t* found = image.at(static_cast<int>(at.x), static_cast<int>(at.y));
+        return Rgba(found[0], found[1], found[2], 255) / 255.0f;
+    }
 };
+
+TEST(ViewFigures, TheScaleIsKnownBeforeAPictureIsDrawn) {
+    FigureWindow w;
+    for (const char* figure : {"empty", "fill"}) {
+        run_command(w.session, "view.color_by", figure);
+        ASSERT_TRUE(w.session.figures.boxes());
+        EXPECT_EQ(w.session.figures.boxes()->scale.figure, colored_figure(*color_figure(w.view().color_by)));
+    }
+    run_command(w.session, "view.boxes");
+    EXPECT_FALSE(w.session.figures.boxes()) << "no box has a colour";
+}
 
 TEST(ViewFigures, AModeIsChosenFromTheListWithTheOthers) {
     FigureWindow w;
@@ -137,7 +156,7 @@ TEST(ViewFigures, SideBySideEachFitIsCounted) {
         w.run("view.level", "0:9");
         std::vector<double> shown, counted;
         for (const std::size_t place : {0u, 1u}) {
-            const std::vector<double>& values = *go(place)->values;
+            const std::vector<double> values = go(place)->values;
             shown.push_back(std::accumulate(values.begin(), values.end(), 0.0));
             // Three agents play the clip, and all boxes of each are shown.
             counted.push_back(0);
@@ -191,6 +210,29 @@ TEST(ViewFigures, SideBySideOneColourIsOneValue) {
     }
 }
 
+TEST(ViewFigures, TheBarEndsWhereItsScaleEnds) {
+    for (const char* theme : {"dark", "light"}) {
+        FigureWindow w;
+        w.run("view.theme", theme);
+        w.run("compare.fits", "mobb,leaf=4 umobb,leaf=4");
+        w.run("view.level", "1");
+        w.run("view.color_by", "volume");
+        for (const std::size_t place : {0u, 1u}) {
+            w.session.views.activate(place);
+            w.window.settle();
+            const ColorScale& scale = w.session.figures.boxes()->scale;
+            const Palette& colors = w.window.shell().shown()->palette;
+            // Between the two handles, on the stripe of colours below the bars.
+            const Rect from = w.rect("view.color_range.from"), to = w.rect("view.color_range.to");
+            const float y = from.min.y + 32;
+            for (const auto& [x, value] :
+                 {std::pair(from.center().x + 2, scale.least), {to.center().x - 2, scale.most}})
+                EXPECT_LT(glm::length(w.pixel({x, y}) - scale.color(value, colors)), 0.06f)
+                    << theme << ' ' << place << ' ' << value;
+        }
+    }
+}
+
 /// The table's part of the cost is that of the colours and the strip, whatever costs are about.
 TEST(ViewFigures, ThePartOfTheCostIsTheExpectedOne) {
     FigureWindow w;
@@ -223,6 +265,24 @@ struct OnStrip {
                 strip.min.y + (level + 0.5f) / static_cast<float>(placed.tree().depth()) * strip.size().y};
     }
 };
+
+TEST(LevelStrip, LevelsDiffer) {
+    for (const char* theme : {"dark", "light"}) {
+        FigureWindow w;
+        w.run("view.theme", theme);
+        w.run("view.level", "3");
+        w.run("view.color_by", "volume");
+        w.run("bottom.show", "nodes");
+        const mobb::Tree& tree = w.session.workspace.fitted().tree(clip_in_focus(w.session.workspace));
+        OnStrip on{w};
+        std::vector<float> contrasts;
+        for (int node = 0; !tree.is_leaf(node); node = tree.children(node)[0])
+            contrasts.push_back(contrast(w.pixel(on.of(0, node)), w.window.shell().shown()->palette.background));
+        ASSERT_GT(contrasts.size(), 3u);
+        for (std::size_t level = 1; level < contrasts.size(); ++level)
+            EXPECT_LT(contrasts[level], 0.95f * contrasts[level - 1]) << theme << ' ' << level;
+    }
+}
 
 TEST(LevelStrip, TellsAndSelectsTheNodeUnderTheMouse) {
     FigureWindow w;

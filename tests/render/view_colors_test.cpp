@@ -1,8 +1,10 @@
 // Boxes and disks in the colours of figures: each compared with the colour of a value that is found out another way.
+#include <base/text.h>
 #include <explain/avoidable.h>
 #include <explain/expected_cost.h>
 #include <render/drawlist/color_scale.h>
 #include <render/drawlist/palette.h>
+#include <render/layout/box_colors.h>
 #include <render/parts/paths.h>
 #include <render/pictures/build_draw_list.h>
 #include <render/pictures/kept_paths.h>
@@ -322,45 +324,69 @@ TEST(FigureColors, AChosenRangeOfLevelsIsOfTheBoxesAlone) {
     EXPECT_GT(colors_of_bar(list, "1", "3").size(), 20u) << "no level lies outside";
 }
 
-TEST(FigureColors, TheSameValuesAreKept) {
+/// What the picture's boxes have is what box_colors says, whichever picture shows them.
+TEST(FigureColors, TheScaleIsThatOfTheBoxesInThePicture) {
     const auto fitted = std::make_shared<const FittedScene>(three_paths());
-    KeptPaths kept(fitted);
-    ViewState view;
-    for (const ColorBy color_by : {ColorBy::volume, ColorBy::overhang, ColorBy::level}) {
-        view.color_by = color_by;
-        view.camera.preset = CameraPreset::iso;
-        build_draw_list(kept, view, {.size = kGoldenSize});
-        const std::shared_ptr<const ColoredValues> before = kept.colored_boxes();
-        ASSERT_TRUE(before);
-        view.camera.preset = CameraPreset::front;
-        build_draw_list(kept, view, {.size = kGoldenSize});
-        EXPECT_EQ(kept.colored_boxes(), before) << "from another side";
-        view.color_range = ValueRange{1, 2};
-        build_draw_list(kept, view, {.size = kGoldenSize});
-        EXPECT_NE(kept.colored_boxes(), before);
-        EXPECT_EQ(kept.colored_boxes()->values, before->values);
-        view.color_range.reset();
-    }
-}
-
-TEST(FigureColors, ColoursAreSpreadOverWhatIsBesideToo) {
-    const auto fitted = std::make_shared<const FittedScene>(three_paths());
-    KeptPaths kept(fitted);
+    SceneFigures figures;
     ViewState view;
     view.color_by = ColorBy::volume;
-    build_draw_list(kept, view, {.size = kGoldenSize});
-    const std::shared_ptr<const ColoredValues> alone = kept.colored_boxes();
-    kept.spread_colors_over({std::make_shared<const std::vector<double>>(1, 2 * alone->scale.most)});
+    view.levels = {1, 2, false};
+    view.hidden = {fitted->scene().agents[1].name};
+    for (const Show show : {Show::space_time, Show::plan, Show::moment}) {
+        view.show = show;
+        const auto colors = box_colors(figures, fitted, view);
+        ASSERT_EQ(colors.has_value(), show != Show::moment) << "a moment shows no boxes";
+        const DrawList list = build_draw_list(*fitted, view, kGoldenSize);
+        if (!colors) continue;
+        EXPECT_EQ(colors->values.size(), 12u) << "two agents' six nodes";
+        EXPECT_GT(colors_of_bar(list, colors->scale.least_text(), colors->scale.most_text()).size(), 20u);
+        if (show != Show::space_time) continue;
+        ASSERT_EQ(list.boxes.size(), colors->values.size());
+        for (std::size_t i = 0; i < list.boxes.size(); ++i) {
+            const Rgba wanted = colors->scale.color(colors->values[i], list.palette);
+            EXPECT_LT(glm::length(with_alpha(list.boxes[i].fill, 1) - wanted), 2e-3f);
+        }
+    }
+    view.show = Show::space_time;
+    view.boxes = false;
+    EXPECT_FALSE(box_colors(figures, fitted, view));
+    view.boxes = true;
+    view.query = 0;
+    EXPECT_FALSE(box_colors(figures, fitted, view)) << "the boxes of a query say what its tests found";
+}
+
+TEST(FigureColors, PicturesBesideShareOneScale) {
+    const auto fitted = std::make_shared<const FittedScene>(three_paths());
+    const auto other = std::make_shared<const FittedScene>(three_paths(mobb::TreeKind::mobb));
+    SceneFigures figures;
+    ViewState view;
+    view.levels = {1, 2, false};
+    view.color_by = ColorBy::volume;
+    BoxColors one = *box_colors(figures, fitted, view), two = *box_colors(figures, other, view);
+    view.color_by = ColorBy::fill;
+    BoxColors third = *box_colors(figures, other, view);
+    const ColorScale of_fill = third.scale;
+    const double least = std::min(one.scale.least, two.scale.least), most = std::max(one.scale.most, two.scale.most);
+    ASSERT_NE(one.scale, two.scale);
+    const std::vector<double> values = one.values;
+    share_scale({&one, &two, nullptr, &third});
+    EXPECT_EQ(one.scale, two.scale);
+    EXPECT_DOUBLE_EQ(one.scale.least, least);
+    EXPECT_DOUBLE_EQ(one.scale.most, most);
+    EXPECT_EQ(one.values, values);
+    EXPECT_EQ(third.scale, of_fill) << "another figure has its own";
+    KeptPaths kept(fitted);
+    kept.adopt_colors(std::make_shared<const BoxColors>(one));
+    view.color_by = ColorBy::volume;
     const DrawList list = build_draw_list(kept, view, {.size = kGoldenSize});
-    EXPECT_DOUBLE_EQ(kept.colored_boxes()->scale.most, 2 * alone->scale.most);
-    EXPECT_EQ(kept.colored_boxes()->values, alone->values);
     for (const BoxInstance& box : list.boxes) {
-        const Rgba wanted = kept.colored_boxes()->scale.color(drawn_volume(list, box), list.palette);
+        const Rgba wanted = one.scale.color(drawn_volume(list, box), list.palette);
         EXPECT_LT(glm::length(with_alpha(box.fill, 1) - wanted), 2e-3f);
     }
     view.color_range = ValueRange{1, 2};
-    build_draw_list(kept, view, {.size = kGoldenSize});
-    EXPECT_EQ(kept.colored_boxes()->scale.most, 2) << "a chosen range is exact";
+    one = *box_colors(figures, fitted, view);
+    share_scale({&one, &two});
+    EXPECT_EQ(one.scale.most, 2) << "a chosen range is exact";
 }
 
 TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
@@ -390,28 +416,26 @@ TEST(FigureColors, NothingIsCountedWhereItIsDoneElsewhere) {
 TEST(Heat, ADiskHasTheColourOfTheTestsThatHoldIt) {
     const FittedScene fitted = three_paths(mobb::TreeKind::mobb);
     Count heat;
-    double least = 1e300, most = 0;
+    double most = 0;
     for (const auto& [node, tests] : tests_of_nodes(fitted)) {
         const mobb::Node& of = fitted.tree(0).node(node);
         for (int sample = of.first; sample < of.end(); ++sample) heat[sample] += tests;
     }
-    for (const auto& [sample, tests] : heat) {
-        least = std::min(least, tests);
-        most = std::max(most, tests);
-    }
+    for (const auto& [sample, tests] : heat) most = std::max(most, tests);
     ASSERT_EQ(heat.size(), 60u);
-    ASSERT_GT(most, least);
+    ASSERT_GT(most, 0);
     ViewState view;
     view.heat = true;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     ASSERT_EQ(list.disks.size(), 180u);
     for (const DiskInstance& disk : list.disks) {
-        const double value = std::clamp(heat[disk.id.index], least, most);
-        const auto share = static_cast<float>(share_of(ColorBy::tests, value, least, most));
+        // From 0 on, whatever the least is.
+        const auto share = static_cast<float>(share_of(ColorBy::tests, heat[disk.id.index], 0, most));
         EXPECT_LT(glm::length(disk.color - quantity_color(share, list.palette)), 2e-3f) << disk.id.index;
     }
     EXPECT_TRUE(std::ranges::any_of(
         list.texts, [](const TextRun& text) { return text.text.starts_with("disks: tests of boxes that hold them"); }));
+    EXPECT_FALSE(colors_of_bar(list, "0", figure(most, 3)).empty()) << "the bar says both ends";
     view.heat = false;
     EXPECT_NE(build_draw_list(fitted, view, kGoldenSize).disks[0].color, list.disks[0].color);
 }
@@ -449,7 +473,6 @@ TEST(Heat, WithoutQueriesItIsWhatIsExpected) {
     const FittedScene fitted(testing::scene_of({{}}), {.leaf = 4});
     const std::vector<double> shares = expected_cost(fitted.tree(0), fitted.tree(0))->node_shares();
     Count heat;
-    double least = 1e300, most = 0;
     for (int node = 0; node < static_cast<int>(shares.size()); ++node) {
         const mobb::Node& of = fitted.tree(0).node(node);
         for (int i = of.first; i < of.end(); ++i) heat[i] += shares[static_cast<std::size_t>(node)];
@@ -457,16 +480,13 @@ TEST(Heat, WithoutQueriesItIsWhatIsExpected) {
     std::vector<double> sorted;
     for (const auto& [sample, value] : heat) sorted.push_back(value);
     std::ranges::sort(sorted);
-    least = sorted[1];
-    most = sorted[sorted.size() - 2];
-    widen(least, most);
+    const double most = sorted[sorted.size() - 2];
     ViewState view;
     view.heat = true;
     const DrawList list = build_draw_list(fitted, view, kGoldenSize);
     ASSERT_EQ(list.disks.size(), 60u);
     for (const DiskInstance& disk : list.disks) {
-        const double value = std::clamp(heat[disk.id.index], least, most);
-        const auto share = static_cast<float>(share_of(ColorBy::share, value, least, most));
+        const auto share = static_cast<float>(std::min(heat[disk.id.index] / most, 1.0));
         EXPECT_LT(glm::length(disk.color - quantity_color(share, list.palette)), 2e-3f) << disk.id.index;
     }
 }
@@ -491,6 +511,36 @@ TEST(Heat, KeptDisksAreColouredAnew) {
 // --- the scale
 
 ColoredFigure figure_named(NodeField field) { return colored_figure(info(field)); }
+
+/// Whatever the theme, the worst is what the eye meets first.
+TEST(ColorScale, TheWorstStandsOutMostInBothThemes) {
+    for (const Theme theme : {Theme::dark, Theme::light}) {
+        for (const NodeField field : {NodeField::empty, NodeField::fill}) {
+            const Palette& colors = palette(theme);
+            const ColorScale scale = color_scale(figure_named(field), std::vector<double>{0.1, 0.9});
+            const auto stands_out = [&](int i) {
+                const float share = static_cast<float>(i) / 10;
+                return contrast(scale.color_at(field == NodeField::fill ? 1 - share : share, colors),
+                                colors.background);
+            };
+            for (int i = 1; i <= 10; ++i) EXPECT_GT(stands_out(i), stands_out(i - 1)) << name(theme) << ' ' << i;
+            EXPECT_GT(stands_out(0), 1.5f) << "the best is seen too";
+        }
+    }
+}
+
+TEST(ColorScale, HeatBeginsAtZero) {
+    for (const NodeField field : {NodeField::tests, NodeField::share}) {
+        ColoredFigure heat = figure_named(field);
+        heat.from_zero = true;
+        const ColorScale scale = color_scale(heat, std::vector<double>{30, 31, 32});
+        EXPECT_EQ(scale.least, 0);
+        EXPECT_EQ(scale.most, 32);
+        EXPECT_EQ(scale.least_text(), "0");
+        EXPECT_EQ(scale.share(0), 0);
+        EXPECT_LT(scale.share(32) - scale.share(30), 0.1f) << "what is nearly alike looks so";
+    }
+}
 
 TEST(ColorScale, AFewThatStandAloneDoNotTakeAllColours) {
     std::vector<double> values(100, 0);

@@ -1,5 +1,6 @@
 #include <app/document/node_figures.h>
 
+#include <optional>
 #include <utility>
 
 namespace mobbscope::app {
@@ -18,26 +19,35 @@ std::span<const double> NodeFigures::column(int clip, NodeField field) {
     return known()->of(workspace_.document().fitted, clip, field).column(field);
 }
 
-const std::shared_ptr<const ColoredValues>& NodeFigures::boxes() const {
-    static const std::shared_ptr<const ColoredValues> none;
-    const std::size_t active = workspace_.document().place;
-    return active < shown_.size() ? shown_[active] : none;
-}
-
-bool NodeFigures::show(std::size_t place, const std::shared_ptr<const ColoredValues>& boxes) {
-    shown_.resize(workspace_.document().beside.size() + 1);
-    return place < shown_.size() && std::exchange(shown_[place], boxes) != boxes;
-}
-
-std::vector<std::shared_ptr<const std::vector<double>>> NodeFigures::beside(std::size_t place,
-                                                                            const ColoredFigure& figure) const {
-    std::vector<std::shared_ptr<const std::vector<double>>> out;
-    if (!workspace_.document().links.level) return out;
-    for (std::size_t i = 0; i < shown_.size(); ++i) {
-        if (i != place && i <= workspace_.document().beside.size() && shown_[i] && shown_[i]->scale.figure == figure)
-            out.push_back(shown_[i]->range);
+bool NodeFigures::are_colored_now() const {
+    if (revision_ != figures_->revision() || linked_ != workspace_.document().links.level) return false;
+    if (colored_.size() != views_.count()) return false;
+    for (std::size_t i = 0; i < colored_.size(); ++i) {
+        if (colored_[i].fitted != views_.fitted(i) || !are_colored_alike(colored_[i].view, views_.view(i)))
+            return false;
     }
-    return out;
+    return true;
+}
+
+const std::shared_ptr<const BoxColors>& NodeFigures::boxes(std::size_t place) {
+    known();
+    if (are_colored_now()) return colored_[place].boxes;
+    std::vector<Colored> now;
+    std::vector<std::optional<BoxColors>> found;
+    for (std::size_t i = 0; i < views_.count(); ++i) {
+        now.push_back({views_.fitted(i), views_.view(i)});
+        found.push_back(box_colors(*figures_, now[i].fitted, now[i].view));
+    }
+    std::vector<BoxColors*> beside;
+    for (auto& one : found) beside.push_back(one ? &*one : nullptr);
+    revision_ = figures_->revision();
+    linked_ = workspace_.document().links.level;
+    if (linked_) share_scale(beside);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i]) now[i].boxes = std::make_shared<const BoxColors>(std::move(*found[i]));
+    }
+    colored_ = std::move(now);
+    return colored_[place].boxes;
 }
 
 }  // namespace mobbscope::app

@@ -185,23 +185,22 @@ void LevelStrip::draw(Ui& ui, int clip, const ChartAxis& time, float most_height
     const std::span<const double> values = ui.session.figures.column(clip, field.field);
     const mobb::PlacedTree placed = fitted.placed(*who);
     Key key{.tree = fitted.shared_tree(who->clip), .figure = colored_figure(field)};
+    // Of its own, in which all levels have room: on the scale of one level the others would have one colour.
+    key.figure.whole_range = true;
+    if (color_figure(view.color_by) == &field) key.chosen = view.color_range;
     key.times = {placed.begin(tree.node(0)), placed.end(tree.node(0)), time.from, time.to, time.first, time.last};
     const bool are_new = key_ != key || !are_same(values_, values);
     if (are_new) {
         values_.assign(values.begin(), values.end());
-        scale_ = color_scale(key.figure, values_);
+        scale_ = color_scale(key.figure, values_, key.chosen);
     }
-    // Where boxes in the picture have these colours, they mean the same here.
-    const auto& boxes = ui.session.figures.boxes();
-    const bool shared = boxes && boxes->scale.known && boxes->scale.figure == key.figure;
-    const ColorScale& scale = shared ? boxes->scale : scale_;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    header(ui, scale, corner.x, time.last);
+    header(ui, scale_, corner.x, time.last);
     const Strip strip{.tree = tree,
                       .placed = placed,
                       .path = *path,
                       .values = values_,
-                      .scale = scale,
+                      .scale = scale_,
                       .time = time,
                       .top = ImGui::GetCursorScreenPos().y,
                       .row = row};

@@ -33,12 +33,13 @@ class LevelStrip {
     struct Key {
         std::shared_ptr<const mobb::Tree> tree;
         ColoredFigure figure;
-        std::array<double, 6> times{};  ///< of the tree and of the axis, with its pixels
+        std::optional<ValueRange> chosen{};  ///< ends of the colours
+        std::array<double, 6> times{};       ///< of the tree and of the axis, with its pixels
         friend bool operator==(const Key&, const Key&) = default;
     };
     std::optional<Key> key_;
     std::vector<double> values_;  ///< by node, likewise
-    ColorScale scale_;            ///< of all these
+    ColorScale scale_;            ///< of all these, on all levels
     Rows rows_;
 };
 

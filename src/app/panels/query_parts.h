@@ -12,7 +12,7 @@
 #include <explain/bodies.h>
 #include <explain/query_findings.h>
 #include <explain/trace_comparison.h>
-#include <render/drawlist/color_scale.h>
+#include <render/layout/box_colors.h>
 #include <render/query/map_colors.h>
 #include <scene/drawn_agent.h>
 
@@ -138,8 +138,8 @@ class PathBars {
 
 /// How the figures of the boxes in the picture are spread: counted when they change.
 struct BoxFigures {
-    std::shared_ptr<const std::vector<double>> of{};
-    ColorScale whole{};  ///< with a place for all of them
+    std::shared_ptr<const BoxColors> of{};
+    ColorScale whole{};  ///< with a place for all of them, and of the pictures beside
     std::vector<std::size_t> counts{};
 };
 

@@ -43,7 +43,8 @@ ChoiceWords choice_words(ColorBy color_by) {
     const std::string label = title_of_choice(*find_command("view.color_by"), std::string(name(color_by)));
     const NodeFieldInfo* field = color_figure(color_by);
     if (!field) return {label, "Boxes in their agent's colour"};
-    return {label, std::string(field->doc) + (field->field == NodeField::level ? "" : ". The brighter, the worse")};
+    return {label,
+            std::string(field->doc) + (field->field == NodeField::level ? "" : ". What stands out most is worst")};
 }
 
 /// The choices are in groups: what begins one.
@@ -213,21 +214,24 @@ void count_figure(Ui& ui, NodeField field) {
 
 /// How the figures of the boxes in the picture are spread, and the range of the colours.
 void figures_of_boxes(Ui& ui, BoxFigures& kept) {
-    const std::shared_ptr<const ColoredValues>& boxes = ui.session.figures.boxes();
-    const NodeFieldInfo* field = color_figure(ui.workspace.view().color_by);
-    if (!boxes || !field || boxes->scale.figure != colored_figure(*field)) return;
+    const std::shared_ptr<const BoxColors>& boxes = ui.session.figures.boxes();
+    if (!boxes) return;
     const ColorScale& scale = boxes->scale;
     if (!scale.known) {
         words(ui.style.quiet, scale.figure.title + ": " + boxes->unknown);
-        return count_figure(ui, field->field);
+        return count_figure(ui, color_figure(ui.workspace.view().color_by)->field);
     }
-    ColoredFigure all = scale.figure;
-    all.whole_range = true;
-    if (kept.of != boxes->values || kept.whole.figure != all) {
+    if (kept.of != boxes) {
         constexpr int kBars = 48;
-        kept.of = boxes->values;
-        kept.whole = color_scale(all, *kept.of);
-        kept.counts = value_counts(kept.whole, *kept.of, kBars);
+        kept.of = boxes;
+        // The bar has room for all values that colours are spread over, and for both ends.
+        ColoredFigure figure = scale.figure;
+        figure.whole_range = true;
+        std::vector<double> all = boxes->range;
+        all.insert(all.end(), boxes->values.begin(), boxes->values.end());
+        all.insert(all.end(), {scale.least, scale.most});
+        kept.whole = color_scale(figure, all);
+        kept.counts = value_counts(kept.whole, boxes->values, kBars);
     }
     const ColorScale& whole = kept.whole;
     const HistogramChange change =

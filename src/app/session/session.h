@@ -81,7 +81,7 @@ class Session {
     Workspace workspace{settings};
     Views views{workspace};
     QueryInspector queries{workspace};
-    NodeFigures figures{workspace};
+    NodeFigures figures{workspace, views};
     NodeInspector nodes{workspace, figures};
     Notifications notifications;
     CommandQueue queue{notifications};

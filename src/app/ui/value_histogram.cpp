@@ -52,6 +52,31 @@ float handle(Ui& ui, const std::string& mark, float place, ImVec2 at, float widt
     return std::clamp((ImGui::GetIO().MousePos.x - at.x) / width, 0.0f, 1.0f);
 }
 
+/// The values at the handles, each below its own, and the button that lets go of them; whether it was pressed.
+bool ends(Ui& ui, const ValueHistogram& shown, ImVec2 at, float width) {
+    const ImFont& font = *ui.style.caption;
+    const float of_from = text_size(font, shown.from_text).x, of_to = text_size(font, shown.to_text).x;
+    const float gap = ui.px(8), button = button_width("auto") + 2 * gap;
+    const float last = std::max(of_from + gap, width - of_to);
+    float from = std::clamp(width * shown.from - 0.5f * of_from, 0.0f, last - of_from - gap);
+    float to = std::clamp(width * shown.to - 0.5f * of_to, from + of_from + gap, last);
+    // The button takes the room between them where it has none beside them.
+    if (shown.chosen && std::max({from, to - from - of_from, width - to - of_to}) < button) {
+        from = 0;
+        to = last;
+    }
+    const auto go_to = [&](float left) {
+        ImGui::SetCursorScreenPos({at.x + left, at.y + ui.px(kBarsHeight + kColorsHeight + 8)});
+    };
+    go_to(from);
+    text_line(ui.style.quiet, shown.from_text, ui.style.caption);
+    go_to(to);
+    text_line(ui.style.quiet, shown.to_text, ui.style.caption);
+    if (!shown.chosen) return false;
+    go_to(to - from - of_from >= button ? from + of_from + gap : from >= button ? 0 : to + of_to + gap);
+    return small_button(ui, "auto", shown.mark + ".auto", "All values");
+}
+
 }  // namespace
 
 float histogram_height(const Ui& ui) { return ui.px(kBarsHeight + kColorsHeight + 8) + ui.style.caption->FontSize; }
@@ -69,16 +94,7 @@ HistogramChange value_histogram(Ui& ui, const ValueHistogram& shown, float width
         out.ends = {moves_from ? std::max(0.0f, std::min(from, to - kLeastRange)) : from,
                     moves_from ? to : std::min(1.0f, std::max(to, from + kLeastRange))};
     }
-    const float below = at.y + ui.px(kBarsHeight + kColorsHeight + 8);
-    ImGui::SetCursorScreenPos({at.x, below});
-    text_line(ui.style.quiet, shown.from_text, ui.style.caption);
-    if (shown.chosen) {
-        ImGui::SameLine(0, ui.px(8));
-        if (small_button(ui, "auto", shown.mark + ".auto", "All values")) out.kind = HistogramChange::Kind::automatic;
-    }
-    ImGui::SameLine();
-    ImGui::SetCursorScreenPos({at.x + width - text_size(*ui.style.caption, shown.to_text).x, below});
-    text_line(ui.style.quiet, shown.to_text, ui.style.caption);
+    if (ends(ui, shown, at, width)) out.kind = HistogramChange::Kind::automatic;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const bool over =
         mouse.x >= at.x && mouse.x < at.x + width && mouse.y >= at.y && mouse.y < at.y + ui.px(kBarsHeight);

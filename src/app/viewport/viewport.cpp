@@ -167,7 +167,7 @@ std::string standing_out(const Workspace& workspace) {
 
 KeptPaths& Viewport::paths_of(const Key& key) {
     if (!paths_ || paths_->fitted() != key.fitted) paths_.emplace(key.fitted, figures_);
-    paths_->spread_colors_over(key.beside);
+    paths_->adopt_colors(key.colors);
     return *paths_;
 }
 
@@ -219,17 +219,15 @@ Viewport::Key Viewport::wanted(const Ui& ui, PictureSize size, const FollowedCho
     if (has_title && seen.view.show == Show::space_time) seen.view.caption = false;
     // The region that the drag began in stays in its place.
     if (drags_on_promise()) seen.view.free_region = false;
-    const NodeFieldInfo* figure = color_figure(seen.view.color_by);
-    std::vector<std::shared_ptr<const std::vector<double>>> beside;
-    if (figure && !seen.view.color_range) beside = ui.session.figures.beside(view_place_, colored_figure(*figure));
-    return {seen.fitted,
-            seen.view,
+    const bool counts = seen.view.heat || color_figure(seen.view.color_by);
+    return {std::move(seen.fitted),
+            std::move(seen.view),
             size,
             words,
             choice ? std::pair(choice->agent, choice->play) : std::pair(-1, -1),
             is_active(ui) || ui.workspace.document().links.selection ? standing_out(ui.workspace) : "",
-            seen.view.heat || figure ? figures_->revision() : 0,
-            std::move(beside)};
+            counts ? figures_->revision() : 0,
+            ui.session.figures.boxes(view_place_)};
 }
 
 /// Gives the view a camera that stands.
@@ -382,11 +380,6 @@ void Viewport::draw(Ui& ui, std::size_t place) {
     if (size.width < kMinSide || size.height < kMinSide) return;
     update_picture(ui, size);
     if (is_active(ui)) ui.session.views.picture = {size, key_->scale};
-    const ViewState& seen = key_->view;
-    const bool has_levels =
-        seen.show == Show::plan ? seen.boxes && !seen.query : seen.show == Show::space_time && !seen.projection;
-    // Panels and views drawn before show those of the frame before.
-    if (ui.session.figures.show(place, has_levels && paths_ ? paths_->colored_boxes() : nullptr)) ui.want_frame_in(0);
     if (!list_) {
         ImGui::TextWrapped("%s", why_not_.c_str());
         return;

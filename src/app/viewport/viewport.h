@@ -53,11 +53,10 @@ class Viewport {
         ViewState view;
         PictureSize size;
         double scale = 0;
-        std::pair<int, int> choice{-1, -1};  ///< agent and play whose candidates are shown
-        std::string selected{};              ///< as PictureOptions has it
-        std::int64_t counted = 0;            ///< SceneFigures::revision, where the colours depend on it
-        /// Of boxes in the other views, where the colours are spread over them too (NodeFigures::beside).
-        std::vector<std::shared_ptr<const std::vector<double>>> beside{};
+        std::pair<int, int> choice{-1, -1};         ///< agent and play whose candidates are shown
+        std::string selected{};                     ///< as PictureOptions has it
+        std::int64_t counted = 0;                   ///< SceneFigures::revision, where the colours depend on it
+        std::shared_ptr<const BoxColors> colors{};  ///< of boxes of levels; null: their agents'
         friend bool operator==(const Key&, const Key&) = default;
     };
     enum class Drag { none, orbit, pan, handle, measured };

@@ -116,13 +116,14 @@ ColorScale color_scale(const ColoredFigure& figure, std::span<const double> valu
         out.most = chosen->most / unit;
     } else if (out.known) {
         const std::size_t left_out = figure.whole_range ? 0 : known.size() / kOneIn;
-        out.least = nth_value(known, left_out);
+        out.least = figure.from_zero ? 0 : nth_value(known, left_out);
         out.most = nth_value(known, known.size() - 1 - left_out);
         // Nothing has no logarithm: the scale begins at what is more.
         double more = std::numeric_limits<double>::infinity();
         for (const double value : known) more = value > 0 ? std::min(more, value) : more;
-        if (out.least <= 0 && !figure.counts && is_a_decade(figure, more, out.most)) out.least = more;
-        if (!figure.whole_range) {
+        if (out.least <= 0 && !figure.counts && !figure.from_zero && is_a_decade(figure, more, out.most))
+            out.least = more;
+        if (!figure.whole_range && !figure.from_zero) {
             const double lacking =
                 kLeastSpan * std::max(std::abs(out.least), std::abs(out.most)) - (out.most - out.least);
             out.least -= 0.5 * std::max(0.0, lacking);

@@ -1,12 +1,11 @@
-/// From figures to colours, as a colour bar shows it. The bright end is what wastes more: the most of a figure, or the
-/// least of one of which less is worse.
+/// From figures to colours, as a colour bar shows it. What is worse stands out more from the theme's ground: the most
+/// of a figure, or the least of one of which less is worse.
 #pragma once
 
 #include <render/drawlist/palette.h>
 #include <scene/node_field.h>
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,8 +19,9 @@ struct ColoredFigure {
     std::string unit{};          ///< "%": values are parts, 0 to 1, and are shown 100 times as large
     bool spans_decades = false;  ///< a few values are many times as large as most: the scale may be logarithmic
     bool counts = false;         ///< whole numbers from 0 on: on a logarithmic scale one more than the value counts
-    bool low_is_worse = false;   ///< the least has the bright end
+    bool low_is_worse = false;   ///< the least stands out most
     bool whole_range = false;    ///< no value is left out at the ends, however few have it
+    bool from_zero = false;      ///< the colours begin at 0, however large the least value is
     friend bool operator==(const ColoredFigure&, const ColoredFigure&) = default;
 };
 
@@ -60,21 +60,10 @@ struct ColorScale {
 /// Spreads the colours over the values; NaN is none. `chosen`: the ends that somebody wants, in the unit that is shown
 /// (per cent of parts). Without it they are the least and the largest value, but of many values one in fifty at either
 /// end is left out, so that a few that stand alone do not take all colours; and the ends are apart by at least a
-/// twentieth of what is there, so that values that are nearly equal look so. The scale is logarithmic where the
-/// figure's may be, and its ends are a decade apart.
+/// twentieth of what is there, so that values that are nearly equal look so. A figure's may begin at 0. The scale is
+/// logarithmic where the figure's may be, and its ends are a decade apart.
 ColorScale color_scale(const ColoredFigure& figure, std::span<const double> values,
                        const std::optional<ValueRange>& chosen = {});
-
-/// What has colours by a figure in a picture.
-struct ColoredValues {
-    using Values = std::shared_ptr<const std::vector<double>>;  ///< never null
-    Values values;
-    Values range;  ///< what the colours are spread over, if nobody has chosen: those, or all that there could be
-    ColorScale scale{};
-    std::string unknown{};  ///< where there is no value: why
-    /// The pointers are the same.
-    friend bool operator==(const ColoredValues&, const ColoredValues&) = default;
-};
 
 /// How many values there are in each of `bars` equal parts of the scale; those outside are in the outermost.
 std::vector<std::size_t> value_counts(const ColorScale& scale, std::span<const double> values, int bars);

@@ -59,7 +59,7 @@ const Palette& palette(Theme theme) {
 
 Rgba quantity_color(float quantity, const Palette& palette) {
     const float t = std::clamp(quantity, 0.0f, 1.0f);
-    const float at = (palette.dark ? 0.3f + 0.7f * t : 0.8f * t) * static_cast<float>(kViridis.size() - 1);
+    const float at = (palette.dark ? 0.3f + 0.7f * t : 0.8f * (1 - t)) * static_cast<float>(kViridis.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
     return mix_colors(hex(kViridis[below]), hex(kViridis[below + 1]), at - static_cast<float>(below));
 }

@@ -28,7 +28,8 @@ struct Palette {
 
 const Palette& palette(Theme theme);
 
-/// The colour of a quantity from 0 to 1: viridis, of which the part that stands out from the theme's ground is taken.
+/// The colour of a quantity from 0 to 1, which stands out the more from the theme's ground, the larger it is: viridis,
+/// brighter and brighter on a dark ground and darker and darker on a light one.
 Rgba quantity_color(float quantity, const Palette& palette);
 
 /// The colour of one of several things without an order; after seven they repeat.

@@ -176,15 +176,6 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
     }
 }
 
-std::vector<double> values_of_boxes(const DrawList& list, BoxFigures figures) {
-    std::vector<double> out;
-    for (const BoxInstance& box : list.boxes) {
-        // Not of a mere outline around others.
-        if (box.state == BoxState::level && box.fill.a > 0) out.push_back(figure_of_box(box, figures));
-    }
-    return out;
-}
-
 void color_boxes(DrawList& list, BoxFigures figures, const ColorScale& scale) {
     for (BoxInstance& box : list.boxes) {
         if (box.state != BoxState::level) continue;

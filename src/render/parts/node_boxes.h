@@ -25,7 +25,6 @@ void add_level_boxes(DrawList& list, std::span<const DrawnAgent> agents, const L
 
 /// The figures that the list's boxes of levels have: by their agent, of its tree's nodes.
 using BoxFigures = std::span<const std::span<const double>>;
-std::vector<double> values_of_boxes(const DrawList& list, BoxFigures figures);
 /// Gives these boxes the colours of their figures. Those outside a range that somebody has chosen step back.
 void color_boxes(DrawList& list, BoxFigures figures, const ColorScale& scale);
 

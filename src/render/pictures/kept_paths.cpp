@@ -5,7 +5,6 @@
 #include <scene/crowd_scene.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace mobbscope {
@@ -15,26 +14,6 @@ namespace {
 /// Placements of all clips that a caption's mean is counted over: nobody waits for it, and its error is half a per
 /// cent.
 constexpr std::size_t kMostForCaption = std::size_t{1} << 18;
-
-/// The old values where the new ones are the same: whoever depends on them sees by the pointer that nothing changed.
-std::shared_ptr<const std::vector<double>> same_or_new(const std::shared_ptr<const std::vector<double>>& old,
-                                                       std::vector<double> values) {
-    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-    if (old && std::ranges::equal(*old, values, same)) return old;
-    return std::make_shared<const std::vector<double>>(std::move(values));
-}
-
-/// Adds the figures of nodes that stay out of the picture because another part of their tree is shown alone.
-std::vector<double> with_hidden_nodes(std::vector<double> values, std::span<const DrawnAgent> agents,
-                                      BoxFigures figures, const ViewState& view) {
-    for (const DrawnAgent& agent : agents) {
-        if (!agent.is_whole() || !agent.subtree) continue;
-        const std::span<const double> own = figures[static_cast<std::size_t>(agent.index)];
-        for (const int node : shown_nodes(agent.placed.tree(), view.levels))
-            values.push_back(own[static_cast<std::size_t>(node)]);
-    }
-    return values;
-}
 
 }  // namespace
 
@@ -46,7 +25,6 @@ KeptPaths& KeptPaths::shown_in(const ViewState& view) {
             std::make_unique<KeptPaths>(std::make_shared<const FittedScene>(fitted_at(*fitted_, view)), figures_);
         moment_ = moment;
     }
-    at_moment_->spread_colors_over(ranges_beside_);
     return *at_moment_;
 }
 
@@ -105,44 +83,17 @@ int KeptPaths::clip_of(const DrawnAgent& agent) const {
 
 std::optional<ColorBar> KeptPaths::color_boxes(DrawList& list, std::span<const DrawnAgent> agents,
                                                const ViewState& view) {
-    const std::shared_ptr<const ColoredValues> before = std::exchange(colored_boxes_, nullptr);
-    const NodeFieldInfo* field = color_figure(view.color_by);
-    if (!field || view.query || !view.boxes) return std::nullopt;
+    const auto own = box_colors_ ? std::nullopt : box_colors(*figures_, fitted_, view);
+    const BoxColors* colors = own ? &*own : box_colors_.get();
+    if (!colors) return std::nullopt;
+    const NodeField field = color_figure(view.color_by)->field;
     std::vector<std::span<const double>> figures(list.agents.size());
-    int deepest = 1;
     for (const DrawnAgent& agent : agents) {
         if (!agent.is_whole()) continue;
-        figures[static_cast<std::size_t>(agent.index)] =
-            figures_->of(fitted_, clip_of(agent), field->field).column(field->field);
-        deepest = std::max(deepest, agent.placed.tree().depth() - 1);
+        figures[static_cast<std::size_t>(agent.index)] = figures_->of(fitted_, clip_of(agent), field).column(field);
     }
-    ColoredValues boxes;
-    boxes.values = same_or_new(before ? before->values : nullptr, values_of_boxes(list, figures));
-    boxes.range = boxes.values;
-    // A part that is shown alone keeps the colours that it has among all.
-    if (std::ranges::any_of(agents, [](const DrawnAgent& agent) { return agent.subtree.has_value(); }))
-        boxes.range =
-            same_or_new(before ? before->range : nullptr, with_hidden_nodes(*boxes.values, agents, figures, view));
-    // A level has one colour in all pictures of trees that are so deep.
-    if (field->field == NodeField::level)
-        boxes.range = same_or_new(before ? before->range : nullptr, {0.0, static_cast<double>(deepest)});
-    std::vector<double> range;
-    for (const auto& each : ranges_beside_) range.insert(range.end(), each->begin(), each->end());
-    range.insert(range.end(), boxes.range->begin(), boxes.range->end());
-    boxes.scale = color_scale(colored_figure(*field), view.color_range ? *boxes.values : range, view.color_range);
-    boxes.scale.known = std::ranges::any_of(*boxes.values, [](double value) { return !std::isnan(value); });
-    mobbscope::color_boxes(list, figures, boxes.scale);
-    const bool counts = field->field == NodeField::tests || field->field == NodeField::avoidable;
-    if (boxes.values->empty()) {
-        boxes.unknown = "no box is shown";
-    } else if (counts) {
-        boxes.unknown = fitted_->queries().empty() ? "the scene asks no queries" : "not counted";
-    } else {
-        boxes.unknown = "unknown here";
-    }
-    const bool same = before && *before == boxes;
-    colored_boxes_ = same ? before : std::make_shared<const ColoredValues>(std::move(boxes));
-    return ColorBar{"boxes", colored_boxes_->scale, colored_boxes_->unknown};
+    mobbscope::color_boxes(list, figures, colors->scale);
+    return ColorBar{"boxes", colors->scale, colors->unknown};
 }
 
 void KeptPaths::find_heat(std::span<const DrawnAgent> agents, const Palette& palette, Theme theme) {
@@ -162,6 +113,7 @@ void KeptPaths::find_heat(std::span<const DrawnAgent> agents, const Palette& pal
     ColoredFigure figure = colored_figure(info(field));
     figure.title =
         field == NodeField::tests ? "tests of boxes that hold them" : "part of all tests of boxes that hold them";
+    figure.from_zero = true;
     heat_->scale = color_scale(figure, all);
     for (const auto& [clip, of_clip] : values) {
         auto colors = std::make_shared<std::vector<Rgba>>();

@@ -6,6 +6,7 @@
 #include <explain/scene_figures.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/shown_points.h>
+#include <render/layout/box_colors.h>
 #include <render/layout/color_bar.h>
 #include <render/layout/framing.h>
 #include <render/parts/paths.h>
@@ -54,19 +55,12 @@ class KeptPaths {
     const ShownPoints& add_disks_of(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view,
                                     std::vector<PathFocus> foci);
 
-    /// ColoredValues::range of pictures beside, of the figure that colours the boxes here: where nobody has chosen a
-    /// range, the colours are spread over these values too, so that they mean the same in all.
-    void spread_colors_over(std::vector<std::shared_ptr<const std::vector<double>>> ranges) {
-        ranges_beside_ = std::move(ranges);
-    }
+    /// What colours the boxes of the view that is drawn next, where pictures stand beside it; null: that of the view
+    /// alone (box_colors).
+    void adopt_colors(std::shared_ptr<const BoxColors> colors) { box_colors_ = std::move(colors); }
     /// Gives the list's boxes of levels the colours of the view's figure. Returns the bar of these; none: they have
     /// their agents'.
     std::optional<ColorBar> color_boxes(DrawList& list, std::span<const DrawnAgent> agents, const ViewState& view);
-    /// The boxes of the last list that have such colours; null: none have. The same pointer as long as they, and the
-    /// colours, are the same.
-    const std::shared_ptr<const ColoredValues>& colored_boxes() const {
-        return at_moment_ ? at_moment_->colored_boxes() : colored_boxes_;
-    }
     /// The bar of the disks' colours in the last list; none: they have their agents'.
     std::optional<ColorBar> heat_bar() const;
 
@@ -116,8 +110,7 @@ class KeptPaths {
 
     std::shared_ptr<const FittedScene> fitted_;
     std::shared_ptr<SceneFigures> figures_;
-    std::vector<std::shared_ptr<const std::vector<double>>> ranges_beside_;
-    std::shared_ptr<const ColoredValues> colored_boxes_;
+    std::shared_ptr<const BoxColors> box_colors_;
     std::optional<Heat> heat_;
     bool shows_heat_ = false;  ///< in the last list
     Moment moment_;

@@ -21,7 +21,7 @@ struct MapColors {
 /// From the least to the largest value that has a colour of its own: of the clearance from 0 on.
 MapColors usual_colors(const PlacementMap& map);
 
-/// Near is bright, and so are many tests.
+/// What is near stands out most, and so do many tests.
 Rgba value_color(MapShow show, double value, const MapColors& colors, const Palette& palette);
 /// Cells that collide have the hit's colour, but for those of a map of tests.
 Rgba cell_color(const PlacementMap& map, int x, int y, const MapColors& colors, const Palette& palette);
