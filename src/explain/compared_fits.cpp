@@ -1,5 +1,6 @@
 #include <base/text.h>
 #include <explain/compared_fits.h>
+#include <explain/query_workload.h>
 #include <scene/fit_text.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kSureErrors = 3;  // a difference of fewer standard errors may be chance
 
 void find_best_of(ComparedLevel& level, double alike_cost) {
     find_best(level.volume, Better::less);

@@ -18,7 +18,6 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kPlacements = 2048;  // so that a fifth of the cost is many standard errors
-constexpr double kSureErrors = 3;          // a difference of fewer standard errors may be chance
 constexpr double kWorthwhile = 0.2;        // of the cost: nearly every clip would be a little cheaper with another fit
 constexpr double kAsGood = 0.01;           // of the cost: a difference that nobody would notice
 constexpr double kGrown = 1.05;            // times the volume of a level above: less is no trend

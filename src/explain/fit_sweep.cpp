@@ -412,8 +412,8 @@ class FitSearch {
             if (are_next(low, high, is_leaf) || at(known->second).estimate - cost <= kSame * cost) return;
             double between = middle(low, high, is_leaf);
             if (is_leaf && least_alike(static_cast<int>(between)) <= low) {
-                const auto next = std::ranges::upper_bound(sizes_, static_cast<int>(between));
-                between = next == sizes_.end() ? high : *next;
+                const auto larger = std::ranges::upper_bound(sizes_, static_cast<int>(between));
+                between = larger == sizes_.end() ? high : *larger;
             } else if (is_leaf) {
                 between = least_alike(static_cast<int>(between));
             }

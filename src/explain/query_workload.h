@@ -133,6 +133,9 @@ constexpr const MeanTests& prices_of(mobb::TreeKind kind) {
 double cost_of(const MeanTests& tests, const MeanTests& prices = kTestPrices);
 double cost_of(const mobb::TestCounts& tests, const MeanTests& prices = kTestPrices);
 
+/// A difference of fewer standard errors may be chance.
+inline constexpr double kSureErrors = 3;
+
 /// How numbers spread, one for each query. Of the differences between two fits, query by query, the standard error is
 /// that of the paired difference.
 struct Spread {

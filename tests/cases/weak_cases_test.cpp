@@ -91,7 +91,9 @@ TEST(WeakCases, ACaseThatAReportBringsIsSaidToBeOne) {
     EXPECT_NE(words(R"("hold": ["picture", "answers"], "threshold": 3)").find("other \"threshold\"\n"),
               std::string::npos);
 
-    EXPECT_FALSE(brings_case(CaseResult{.file = file}));
+    CaseResult bare;
+    bare.file = file;
+    EXPECT_FALSE(brings_case(bare));
     EXPECT_TRUE(brings_case(bringing(file, R"("skip": "never")")));
     CaseResult known = bringing(file, same);
     known.fresh[0].bytes = golden_bytes(file.file);
