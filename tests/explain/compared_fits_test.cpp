@@ -138,7 +138,7 @@ TEST(ComparedFits, WhatDiffersByHalfAPercentIsAlike) {
 }
 
 TEST(ComparedFits, CostsThatMayDifferByChanceAreAlike) {
-    const Trees trees = trees_of({{}, {}});
+    const Trees trees = trees_of({{.leaf = 10}, {.leaf = 40}});
     const std::shared_ptr<const TreeCost> known = standard_cost(trees[0]);
     const auto best_of_more = [&](double part) {
         TreeCost more = *known;

@@ -102,7 +102,8 @@ TEST(TreeCost, IsDividedAsExpected) {
     for (std::size_t i = 0; i < cost->levels.size(); ++i) {
         all += cost->levels[i];
         for (const mobb::TestKind test : mobb::kTestKinds)
-            EXPECT_NEAR(cost->levels[i][test] * expected.tests[test], expected.levels[i][test] * cost->tests[test], 1e-12);
+            EXPECT_NEAR(cost->levels[i][test] * expected.tests[test], expected.levels[i][test] * cost->tests[test],
+                        1e-12);
     }
     for (const mobb::TestKind test : mobb::kTestKinds) EXPECT_NEAR(all[test], cost->tests[test], 1e-12);
     EXPECT_NEAR(cost->ns(all), cost->ns(), 1e-9);
