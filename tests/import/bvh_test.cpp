@@ -147,10 +147,11 @@ TEST(Bvh, RowsThatAreThereAreBelieved) {
 
 TEST(Bvh, FrameTimesThatAreNoSecondsAreDoubted) {
     const auto doubt = [](const std::string& time) {
-        const BvhData data = parse_bvh(replaced(kWalker, "Frame Time: 0.1", "Frame Time: " + time), kFile);
+        BvhData data = parse_bvh(replaced(kWalker, "Frame Time: 0.1", "Frame Time: " + time), kFile);
         EXPECT_EQ(data.frame_time, std::stod(time));  // it is not changed
-        EXPECT_EQ(bvh_motion(data).motion(0, 0)->times().doubt, data.time_doubt);
-        return data.time_doubt;
+        const std::string doubt_of_data = data.time_doubt;
+        EXPECT_EQ(bvh_motion(std::move(data)).motion(0, 0)->times().doubt, doubt_of_data);
+        return doubt_of_data;
     };
     const auto looks_like = [](const std::string& time, const std::string& what, const std::string& write) {
         return "Frame Time is " + time + " seconds, which looks like " + what + "; if so, write " + write +
@@ -185,12 +186,12 @@ TEST(Bvh, EveryRootIsACharacter) {
     std::string text = replaced(kWalker, "MOTION", dog + "ROOT Hips\n{\nOFFSET 1 2 3\nCHANNELS 1 Xposition\n}\nMOTION");
     text = replaced(text, "0 0 0\n10", "0 0 0 1 70\n10");
     text = text.substr(0, text.size() - 1) + " 2 80\n";
-    const BvhData data = parse_bvh(text, kFile);
+    BvhData data = parse_bvh(text, kFile);
     EXPECT_EQ(data.joints[4].parent, -1);
     EXPECT_EQ(data.joints[5].parent, 4);
     EXPECT_EQ(data.row_length, 14u);
 
-    const MotionFile file = bvh_motion(data);
+    const MotionFile file = bvh_motion(std::move(data));
     EXPECT_EQ(file.characters, (std::vector<std::string>{"Hips", "Dog", "Hips #2"}));
     EXPECT_EQ(file.moved(0).characters, (std::vector<std::size_t>{0, 1, 2}));
     std::vector<int> owners;
