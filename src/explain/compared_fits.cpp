@@ -11,7 +11,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kSureErrors = 3;  // a difference of fewer standard errors may be chance
+constexpr double kCostErrors = 3;  // a difference of fewer standard errors may be chance
 
 void find_best_of(ComparedLevel& level, double alike_cost) {
     find_best(level.volume, Better::less);
@@ -27,7 +27,7 @@ double chance_of(std::span<const std::shared_ptr<const TreeCost>> costs) {
         if (cost && cost->workload == QueryWorkload::Kind::placements)
             largest = std::max(largest, cost->count.standard_error());
     }
-    return std::max(kAlike, kSureErrors * std::numbers::sqrt2 * largest);
+    return std::max(kAlike, kCostErrors * std::numbers::sqrt2 * largest);
 }
 
 ComparedLevel empty_level(int level, std::size_t fits) {
