@@ -12,7 +12,6 @@ namespace mobbscope {
 
 namespace {
 
-
 void find_best_of(ComparedLevel& level, double alike_cost) {
     find_best(level.volume, Better::less);
     find_best(level.fill, Better::more);

@@ -13,7 +13,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kTogether = 4096;  // placements that one thread counts
+constexpr std::size_t kOfAThread = 4096;  // placements that one thread counts
 
 MeanTests means_of(const MeanTests& sums, std::size_t queries) {
     MeanTests out = sums;
@@ -114,13 +114,13 @@ class PlacementCounter {
 /// Counts up to placement `end`, on all processors.
 void count_on(PlacementCount& count, std::size_t end, const PlacementCounter& counter, const Progress& progress) {
     const std::size_t first = count.placements;
-    std::vector<PlacementCount> parts((end - first + kTogether - 1) / kTogether);
+    std::vector<PlacementCount> parts((end - first + kOfAThread - 1) / kOfAThread);
     limit_worker_threads();
     std::mutex telling;
     std::size_t done = 0;
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        const std::size_t begin = first + i * kTogether;
-        parts[i] = counter.count(begin, std::min(begin + kTogether, end));
+        const std::size_t begin = first + i * kOfAThread;
+        parts[i] = counter.count(begin, std::min(begin + kOfAThread, end));
         if (!progress) return;
         const std::scoped_lock lock(telling);
         progress(done += parts[i].placements, end - first);

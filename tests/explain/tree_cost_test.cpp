@@ -30,8 +30,8 @@ FittedScene crossing_with(mobb::TreeKind kind) {
 }
 
 /// The same placements, each of them asked.
-std::vector<mobb::TestCounts> asked(const std::shared_ptr<const mobb::Tree>& tree, std::size_t count,
-                                    std::uint64_t seed = kCountedSeed) {
+std::vector<mobb::TestCounts> asked_again(const std::shared_ptr<const mobb::Tree>& tree, std::size_t count,
+                                          std::uint64_t seed = kCountedSeed) {
     return count_tests(standard_workload(std::array{tree->shared_clip()}, count, seed), std::span(&tree, 1));
 }
 
@@ -48,7 +48,7 @@ TEST(TreeCost, IsTheMeanOfStandardPlacements) {
             ASSERT_TRUE(cost);
             EXPECT_EQ(cost->tree, tree);
             EXPECT_EQ(cost->workload, QueryWorkload::Kind::placements);
-            const std::vector<mobb::TestCounts> tests = asked(tree, cost->queries);
+            const std::vector<mobb::TestCounts> tests = asked_again(tree, cost->queries);
             const MeanTests mean = mean_tests(tests);
             for (const mobb::TestKind test : mobb::kTestKinds)
                 EXPECT_DOUBLE_EQ(cost->tests[test], mean[test]) << mobb::name(kind) << ' ' << round;
@@ -138,7 +138,7 @@ TEST(TreeCost, OfRecordingsIsWhatAMillionPlacementsCost) {
         const Scene scene = load_scene(folder + file + ".bvh");
         const auto tree = std::make_shared<const mobb::Tree>(scene.clips.front().clip, mobb::FitOptions{});
         const auto cost = standard_cost(tree);
-        const MeanTests mean = mean_tests(asked(tree, 1'000'000, 53));
+        const MeanTests mean = mean_tests(asked_again(tree, 1'000'000, 53));
         EXPECT_NEAR(cost->ns(), cost_of(mean), 0.02 * cost_of(mean)) << file;
         EXPECT_NEAR(cost->tests.boxes(), mean.boxes(), 0.02 * mean.boxes()) << file;
     }
