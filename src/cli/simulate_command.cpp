@@ -11,10 +11,13 @@
 #include <crowd/simulation/crowd_order.h>
 #include <crowd/simulation/simulate.h>
 #include <import/import.h>
+#include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
+#include <scene/crowd_scene.h>
 #include <scene/load_files.h>
 #include <scene/motion_graph.h>
 #include <scene/scene_edits.h>
+#include <scene/scene_json.h>
 
 #include <chrono>
 #include <cmath>
@@ -27,6 +30,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -44,6 +48,7 @@ struct SimulateCommandArguments {
     bool inline_samples = false;
     bool whole = false;
     bool json = false;
+    bool check = false;  ///< the run that is given, in place of making one
     CrowdOrder order;
     FitArguments fit;
 };
@@ -153,7 +158,128 @@ QueriedBy queried_by(const FitArguments& fit) {
     return fit.tree.value_or(mobb::TreeKind::blocks) == mobb::TreeKind::blocks ? QueriedBy::blocks : QueriedBy::trees;
 }
 
-void run_simulate(const SimulateCommandArguments& arguments) {
+/// Of a move that is not turned.
+const std::string& clip_name(const Scene& run, int move) {
+    return run.clips[static_cast<std::size_t>(run.graph->moves[static_cast<std::size_t>(move)].clip)].name;
+}
+
+void write_played(JsonWriter& out, const char* key, const MoveSet& moves, const PlannedMove& move, PlayKind kind,
+                  const mobb::Placement& at, const std::vector<PlannedMove>& plan) {
+    out.begin_object(key);
+    out.members("clip", clip_name(moves.fitted().scene(), move.move), "move", move.move, "turn_deg", move.turn_deg,
+                "kind", name(kind), "translate", at.translate, "rotate_deg", at.rotate_deg, "start", at.start);
+    out.list("plan", plan, [&](const PlannedMove& next) { out.tuple(next.move, next.turn_deg); });
+    out.end_object();
+}
+
+void write_asked(JsonWriter& out, const char* key, const MoveSet& moves, const AskedSide& side) {
+    out.begin_object(key, JsonWriter::Layout::row);
+    out.members("agent", moves.fitted().scene().crowd->agents[static_cast<std::size_t>(side.agent)].name, "clip",
+                name_of(moves, side), "planned", side.is_planned, "translate", side.placement.translate, "rotate_deg",
+                side.placement.rotate_deg, "start", side.placement.start);
+    out.end_object();
+}
+
+void write_query(JsonWriter& out, const MoveSet& moves, const DecidingQuery& query) {
+    const DecidingTrace traced = trace_of(query, moves.fitted().options());
+    out.begin_object("query");
+    write_asked(out, "a", moves, query.candidate);
+    write_asked(out, "b", moves, query.other);
+    out.member("collides", traced.recorded.contact.has_value());
+    out.key("contact");
+    write_contact(out, traced.recorded.contact);
+    out.key("event");
+    traced.step < 0 ? out.null() : write_event(out, traced.recorded.trace, traced.step);
+    out.end_object();
+}
+
+void write_difference(JsonWriter& out, const MoveSet& moves, const RunDifference& difference) {
+    const Scene& run = moves.fitted().scene();
+    const FollowedChoice& remade = difference.remade;
+    const Choice& choice = remade.choice;
+    const CrowdAgent& agent = run.crowd->agents[static_cast<std::size_t>(remade.agent)];
+    const Play& play = agent.plays[static_cast<std::size_t>(remade.play)];
+    out.begin_object("difference");
+    out.members("agent", agent.name, "play", remade.play, "time", choice.time, "due",
+                difference.due.value_or(choice.time));
+    write_played(out, "then", moves, moves.origin(play.move), play.kind, play.placement, play.plan);
+    if (choice.candidates.empty()) {
+        out.key("now");
+        out.null();
+    } else {
+        const Candidate& taken = choice.candidates[choice.taken];
+        write_played(out, "now", moves, {taken.move, taken.turn_deg}, choice.kind, taken.placement, choice.plan);
+    }
+    out.member("played", difference.played);
+    out.begin_array("candidates");
+    for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+        const Candidate& candidate = choice.candidates[i];
+        out.begin_object(JsonWriter::Layout::row);
+        out.members("clip", clip_name(run, candidate.move), "move", candidate.move, "turn_deg", candidate.turn_deg,
+                    "outcome", outcome_words(outcome_of(choice, i)));
+        if (const auto& blocker = candidate.blocker) {
+            out.members("meets", run.crowd->agents[static_cast<std::size_t>(blocker->agent)].name, "contact_time",
+                        blocker->contact.time);
+        }
+        out.end_object();
+    }
+    out.end_array();
+    out.key("decides");
+    if (difference.other) {
+        out.row("candidate", difference.other->candidate, "about", difference.other->about_way ? "way" : "collision");
+    } else {
+        out.null();
+    }
+    if (difference.query) {
+        write_query(out, moves, *difference.query);
+    } else {
+        out.key("query");
+        out.null();
+    }
+    out.end_object();
+}
+
+/// Makes the choices of the run in the file again; the exit status.
+int check_stored_run(const Command& command, const SimulateCommandArguments& arguments) {
+    for (const GivenOption& given : command.given()) {
+        if (given.name == "GRAPH" || given.name == "--check" || given.name == "--json") continue;
+        throw UsageError("--check takes the run as its file has it; leave out " + given.name);
+    }
+    const std::string file = shown_name(arguments.graph);
+    const FittedScene run = fitted(load(arguments.graph, {}), {});
+    if (!is_run(run.scene()))
+        throw InputError(arguments.graph, "there is no run to check; give one that simulate wrote");
+    const MoveSet moves(run);
+    const RunCheck found = check_run(moves, tell("made", "plays again"));
+    std::size_t plays = 0;
+    for (const CrowdAgent& agent : run.scene().crowd->agents) plays += agent.plays.size();
+    if (arguments.json) {
+        JsonWriter out(std::cout);
+        out.begin_object();
+        out.members("plays", plays, "compared", found.plays, "agrees", !found.difference);
+        if (found.difference) {
+            write_difference(out, moves, *found.difference);
+        } else {
+            out.key("difference");
+            out.null();
+        }
+        out.end_object();
+    } else if (found.difference) {
+        const std::vector<std::string> lines = difference_lines(moves, *found.difference);
+        for (std::size_t i = 0; i < lines.size(); ++i) std::cout << (i > 0 ? "  " : "") << cleaned(lines[i]) << '\n';
+    } else {
+        std::cout << "all " << counted(plays, "play", "plays") << " come out as the run says\n";
+    }
+    flush_results();
+    if (!found.difference) return kDone;
+    complain(file + ": play " + std::to_string(found.plays + 1) + " of " + std::to_string(plays) +
+             ", in the order of choices, does not come out as the run says");
+    return kFailed;
+}
+
+int run_simulate(const Command& command, const SimulateCommandArguments& arguments) {
+    if (arguments.check) return check_stored_run(command, arguments);
+    if (arguments.out.empty()) throw UsageError("-o is missing: say where the run goes, or --check one");
     check_run_outputs(arguments);
     Importer importer;
     Scene scene = load_moves(arguments, importer);
@@ -189,13 +315,16 @@ void run_simulate(const SimulateCommandArguments& arguments) {
     write_files(files);
     arguments.json ? print_run_json(played, summary) : print_run_text(summary);
     flush_results();
+    return kDone;
 }
 
 void add_simulate_options(Command& command, SimulateCommandArguments& arguments) {
     add_parsed(command, "GRAPH", arguments.graph, parse_file_name,
-               "A scene with a motion graph; with --whole clips, or a folder of them", "")
+               "A scene with a motion graph; with --whole clips, or a folder of them; with --check a run", "")
         .required();
-    add_parsed(command, "-o,--output", arguments.out, parse_file_name, "The run, as a scene", "OUT.json").required();
+    add_parsed(command, "-o,--output", arguments.out, parse_file_name, "The run, as a scene", "OUT.json");
+    command.add_flag("--check", arguments.check,
+                     "Make every choice of a run again; 1 and the first that differs, where one does");
     add_number_options(command, crowd_options(), arguments.order);
     add_parsed(command, "--threads", arguments.order.options.threads, whole_number_within(1, kMaxThreads),
                "At most (all)", "N");

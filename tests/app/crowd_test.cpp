@@ -291,6 +291,80 @@ TEST_F(CrowdTest, AConflictIsSeenWhereItWasForced) {
     EXPECT_TRUE(session.crowds.conflicts()) << "they are still those of the run";
 }
 
+/// A run in which somebody took what the simulator would not have taken, and collides with one who chose later.
+struct WrongChoice {
+    Scene run;
+    int agent = -1, play = -1;
+};
+
+WrongChoice run_with_a_wrong_choice() {
+    const Scene simulated = with_run(walker_scene(), 26, {13, 13}, 4);
+    const FittedScene fitted(simulated, {});
+    const MoveSet moves(fitted);
+    const auto graph_moves = static_cast<int>(simulated.graph->moves.size());
+    for (int agent = 0; agent < 26; ++agent) {
+        const int last = static_cast<int>(simulated.crowd->agents[static_cast<std::size_t>(agent)].plays.size()) - 1;
+        const Choice choice = choice_of(moves, *simulated.crowd, agent, last);
+        for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
+            const Candidate& candidate = choice.candidates[i];
+            if (i == choice.taken || !candidate.is_free() || candidate.played >= graph_moves) continue;
+            CrowdRun edited = *simulated.crowd;
+            edited.agents[static_cast<std::size_t>(agent)].plays.back() = {
+                candidate.played, candidate.placement, choice.time, PlayKind::chosen, {}};
+            WrongChoice out{simulated, agent, last};
+            out.run.crowd = std::make_shared<const CrowdRun>(std::move(edited));
+            const std::vector<SceneConflict> found = conflicts_in(FittedScene(out.run, {}));
+            if (found.empty() || was_forced(*out.run.crowd, found.front())) continue;
+            const bool by_a = made_by_a(*out.run.crowd, found.front());
+            if ((by_a ? found.front().a : found.front().b).agent != agent) return out;
+        }
+    }
+    throw std::logic_error("nobody collides with one who chose later: take a smaller floor");
+}
+
+TEST_F(CrowdTest, TheChoiceOfAConflictIsTheOneAtFault) {
+    const WrongChoice wrong = run_with_a_wrong_choice();
+    session.files.open({folder.write("wrong.json", to_json(wrong.run, true))});
+    run("conflicts.find");
+    ASSERT_FALSE(session.crowds.conflicts()->empty());
+    run("conflicts.go", "0");
+    run("conflicts.choice");
+    ASSERT_TRUE(session.crowds.choice());
+    EXPECT_EQ(session.crowds.choice()->agent, wrong.agent);
+    EXPECT_EQ(session.crowds.choice()->play, wrong.play);
+    EXPECT_FALSE(session.crowds.choice()->comes_out);
+    // The run as a whole names the same.
+    run("time.at", "1");
+    run("crowd.check");
+    ASSERT_TRUE(session.crowds.choice());
+    EXPECT_EQ(session.crowds.choice()->agent, wrong.agent);
+    EXPECT_EQ(session.crowds.choice()->play, wrong.play);
+    const std::string said = session.notifications.all().back().text;
+    EXPECT_NE(said.find("made again the choice is"), std::string::npos) << said;
+    EXPECT_NE(said.find("\nnow: "), std::string::npos) << said;
+}
+
+TEST_F(CrowdTest, ARunThatComesOutIsSaidTo) {
+    run("crowd.check");
+    EXPECT_NE(session.notifications.all().back().text.find("come out as the run says"), std::string::npos);
+}
+
+TEST_F(CrowdTest, TheTimelineHoldsTheConflicts) {
+    // As if less had been simulated: what was chosen goes on.
+    Scene shorter = session.workspace.scene();
+    CrowdRun crowd = *shorter.crowd;
+    crowd.seconds = 1;
+    shorter.crowd = std::make_shared<const CrowdRun>(std::move(crowd));
+    session.files.open({folder.write("shorter.json", to_json(shorter, true))});
+    EXPECT_EQ(time_span(session.workspace).t1, 1);
+    run("conflicts.find");
+    double end = 0;
+    for (const SceneConflict& conflict : *session.crowds.conflicts())
+        end = std::max(end, conflict.facts.intervals.back().t1);
+    ASSERT_GT(end, 1);
+    EXPECT_EQ(time_span(session.workspace).t1, end);
+}
+
 /// The walkers' clips differ in dt, so people are several agents of scene_of_people.
 TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     run("conflicts.find");

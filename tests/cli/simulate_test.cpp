@@ -62,6 +62,43 @@ TEST_F(Simulate, WritesARunThatIsReadAgain) {
     EXPECT_EQ(scene.clips[0].source, "clips/walk.csv");
 }
 
+TEST_F(Simulate, AStoredRunIsCheckedChoiceByChoice) {
+    using nlohmann::json;
+    ASSERT_EQ(simulate().status, 0);
+    const Result same = run_program({"simulate", run, "--check"});
+    EXPECT_EQ(same.status, 0) << same.err;
+    EXPECT_NE(same.out.find("come out as the run says"), std::string::npos) << same.out;
+    json edited = json::parse(slurp(run));
+    json& agents = edited["crowd"]["agents"];
+    // The other of the two moves: as the last play nothing has to join it.
+    const json& moves = edited["graph"]["moves"];
+    json& last = agents[5]["plays"].back();
+    const int was = last["move"];
+    const int other = moves[static_cast<std::size_t>(was)].contains("turned") ? 0 : 1 - was;
+    last["move"] = other;
+    last.erase("kind");
+    const std::string file = folder.write("edited.json", edited.dump());
+    const Result found = run_program({"simulate", file, "--check"});
+    EXPECT_EQ(found.status, 1) << found.err;
+    EXPECT_TRUE(found.out.starts_with("6 plays " + std::string(other == 0 ? "walk" : "turn") + " at ")) << found.out;
+    EXPECT_NE(found.out.find("\n  then: "), std::string::npos) << found.out;
+    EXPECT_NE(found.out.find("\n  now: "), std::string::npos) << found.out;
+    EXPECT_NE(found.err.find("does not come out as the run says\n"), std::string::npos) << found.err;
+    const json difference = json::parse(run_program({"simulate", file, "--check", "--json"}).out)["difference"];
+    EXPECT_EQ(difference["agent"], "6");
+    EXPECT_EQ(difference["play"], agents[5]["plays"].size() - 1);
+    EXPECT_EQ(difference["then"]["move"], other);
+    EXPECT_TRUE(difference["now"]["clip"].is_string());
+    EXPECT_FALSE(difference["candidates"].empty());
+    EXPECT_EQ(json::parse(run_program({"simulate", run, "--check", "--json"}).out)["agrees"], true);
+    for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+             {graph.string(), "--check"}, {run, "--check", "--seed", "4"}, {run, "--check", "-o", run}, {run}}) {
+        std::vector<std::string> all{"simulate"};
+        all.insert(all.end(), wrong.begin(), wrong.end());
+        EXPECT_EQ(run_program(all).status, 2) << wrong.back();
+    }
+}
+
 TEST_F(Simulate, TheSameBytesOnAnyNumberOfThreads) {
     ASSERT_EQ(simulate({"--threads", "1"}).status, 0);
     const std::string one = slurp(run);

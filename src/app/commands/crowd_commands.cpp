@@ -193,6 +193,31 @@ void to_conflict(Session& session, int index) {
     workspace.select({});
 }
 
+/// Follows who plays what the simulator would not choose, when it was chosen.
+void tell_of_check(Session& session, const MoveSet& moves, const RunCheck& found) {
+    if (!found.difference) {
+        return session.notifications.tell(MessageLevel::info,
+                                          "All " + counted(found.plays, "play", "plays") + " come out as the run says");
+    }
+    std::string text;
+    for (const std::string& line : difference_lines(moves, *found.difference))
+        text += (text.empty() ? "" : "\n") + line;
+    session.notifications.tell(MessageLevel::warning, text);
+    const FollowedChoice& remade = found.difference->remade;
+    to_time(session.playback, session.workspace, std::max(0.0, remade.choice.time));
+    follow_agent(session.workspace, session.views,
+                 session.workspace.crowd()->agents[static_cast<std::size_t>(remade.agent)].name, kAroundFollowed);
+    if (remade.play > 0 && found.difference->other && session.crowds.choice())
+        session.crowds.point_out(static_cast<int>(found.difference->other->candidate));
+}
+
+void check_the_run(Session& session) {
+    session.crowds.check_run(
+        [&session](const MoveSet& moves, const RunCheck& found) { tell_of_check(session, moves, found); });
+}
+
+bool can_check(const Workspace& workspace, const Jobs& jobs) { return workspace.crowd() && !jobs.job(); }
+
 bool has_choice_behind(const Workspace& workspace, const CrowdInspector& crowds) {
     return workspace.crowd() && workspace.conflict >= 0 && crowds.conflicts();
 }
@@ -259,6 +284,9 @@ std::vector<Command> crowd_commands() {
                 {.shortcut = "N", .enabled = has_choice<1>}),
         Command("crowd.previous_choice", "Previous choice", "Goes to the time at which the agent chose before.",
                 to_choice<-1>, {.shortcut = "Shift+N", .enabled = has_choice<-1>}),
+        Command("crowd.check", "Check the run",
+                "Makes every choice of the run again, and follows who plays the first one that comes out otherwise.",
+                check_the_run, {.enabled = can_check, .also = "verify replay remake simulate"}),
         Command("crowd.special_play", "To a forced or turned play",
                 "Follows who was forced or turned, when that was chosen: by its number from 0 in the list.",
                 to_special_play,

@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kBefore = 0.5;  // seconds before a conflict
 
+/// Of a run.
+const MoveSet& moves_of(const Workspace& workspace) {
+    std::unique_ptr<MoveSet>& kept = workspace.derived().moves;
+    if (!kept) kept = std::make_unique<MoveSet>(*workspace.document().fitted);
+    return *kept;
+}
+
 }  // namespace
 
 const FollowedChoice* CrowdInspector::choice() const {
@@ -23,9 +30,9 @@ const FollowedChoice* CrowdInspector::choice() const {
     const std::pair made{
         *run_agent, last_chosen(workspace_.crowd()->agents[static_cast<std::size_t>(*run_agent)], time).value_or(-1)};
     Workspace::Derived& d = workspace_.derived();
-    if (!d.moves) d.moves = std::make_unique<MoveSet>(*workspace_.document().fitted);
+    const MoveSet& moves = moves_of(workspace_);
     if (d.chosen != made) {
-        d.choice = last_choice(*d.moves, *run_agent, time);
+        d.choice = last_choice(moves, *run_agent, time);
         d.chosen = made;
     }
     return d.choice ? &*d.choice : nullptr;
@@ -51,14 +58,28 @@ const std::vector<SceneConflict>* CrowdInspector::conflicts() const {
 void CrowdInspector::find_conflicts() {
     jobs_.start("Looking for conflicts", [this, in = workspace_.document().fitted](JobControl& control) -> Job::Finish {
         std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
-        return [this, in, found = std::move(found)]() mutable {
+        double end = 0;
+        for (const SceneConflict& conflict : found) end = std::max(end, conflict.facts.intervals.back().t1);
+        return [this, in, end, found = std::move(found)]() mutable {
             if (&in->scene() != &workspace_.scene()) {
                 return notifications_.tell(MessageLevel::info, "The scene has changed: look for conflicts again");
             }
-            workspace_.found = Workspace::FoundConflicts{in, std::move(found)};
+            workspace_.found = Workspace::FoundConflicts{in, std::move(found), end};
             workspace_.conflict = -1;
         };
     });
+}
+
+void CrowdInspector::check_run(const std::function<void(const MoveSet&, const RunCheck&)>& then) {
+    jobs_.start("Checking the run",
+                [this, then, in = workspace_.document().fitted](JobControl& control) -> Job::Finish {
+                    const auto moves = std::make_shared<const MoveSet>(*in);
+                    RunCheck found = mobbscope::check_run(*moves, progress_of(control));
+                    return [this, then, in, moves, found = std::move(found)] {
+                        if (&in->scene() == &workspace_.scene()) return then(*moves, found);
+                        notifications_.tell(MessageLevel::info, "The scene has changed: check the run again");
+                    };
+                });
 }
 
 std::string CrowdInspector::conflict_summary() const {
@@ -106,12 +127,33 @@ const std::vector<SpecialPlay>& CrowdInspector::special_plays() const {
 const std::string& CrowdInspector::why(const SpecialPlay& play, const WordsOfChoice& words) const {
     const auto [at, is_new] = listed_.reasons.try_emplace({play.agent, play.play});
     if (is_new) {
-        Workspace::Derived& d = workspace_.derived();
-        if (!d.moves) d.moves = std::make_unique<MoveSet>(*workspace_.document().fitted);
-        at->second = words(workspace_.scene(), choice_of(*d.moves, *workspace_.crowd(), play.agent, play.play));
+        at->second =
+            words(workspace_.scene(), choice_of(moves_of(workspace_), *workspace_.crowd(), play.agent, play.play));
     }
     return at->second;
 }
+
+namespace {
+
+/// Whether `a` made the conflict of a run, or else `b`: of the two plays the first that the simulator would not have
+/// chosen; where both come out, made_by_a.
+bool at_fault_is_a(const Workspace& workspace, const SceneConflict& conflict) {
+    const CrowdRun& run = *workspace.crowd();
+    const MoveSet& moves = moves_of(workspace);
+    const auto play_of = [&](int agent, int play) -> const Play& {
+        return run.agents[static_cast<std::size_t>(agent)].plays[static_cast<std::size_t>(play)];
+    };
+    const auto comes_out = [&](int agent, int play) {
+        return comes_out_as(play_of(agent, play), choice_of(moves, run, agent, play));
+    };
+    const int a = conflict.a.agent, b = conflict.b.agent;
+    const bool a_comes_out = comes_out(a, conflict.a_play), b_comes_out = comes_out(b, conflict.b_play);
+    if (a_comes_out != b_comes_out) return !a_comes_out;
+    if (a_comes_out) return made_by_a(run, conflict);
+    return std::pair(play_of(a, conflict.a_play).chosen_at, a) < std::pair(play_of(b, conflict.b_play).chosen_at, b);
+}
+
+}  // namespace
 
 double time_before(const Workspace& workspace, const SceneConflict& conflict) {
     return std::max(conflict.begin() - kBefore, time_span(workspace).t0);
@@ -120,7 +162,7 @@ double time_before(const Workspace& workspace, const SceneConflict& conflict) {
 ConflictPlace conflict_place(const Workspace& workspace, const SceneConflict& conflict) {
     const double before = time_before(workspace, conflict);
     if (!workspace.crowd()) return {conflict.a, conflict.b, before};
-    const bool by_a = made_by_a(*workspace.crowd(), conflict);
+    const bool by_a = at_fault_is_a(workspace, conflict);
     ConflictPlace out{by_a ? conflict.a : conflict.b, by_a ? conflict.b : conflict.a, before};
     const int play = by_a ? conflict.a_play : conflict.b_play;
     const CrowdAgent& agent = workspace.crowd()->agents[static_cast<std::size_t>(out.followed.agent)];

@@ -3,6 +3,7 @@
 
 #include <app/document/workspace.h>
 #include <app/session/jobs.h>
+#include <crowd/simulation/run_check.h>
 
 #include <functional>
 #include <map>
@@ -66,6 +67,8 @@ class CrowdInspector {
     /// All that collide, once they were looked for; null: not yet.
     const std::vector<SceneConflict>* conflicts() const;
     void find_conflicts();
+    /// Makes every choice of the run again, beside the window, and hands over what came of it.
+    void check_run(const std::function<void(const MoveSet& moves, const RunCheck& found)>& then);
     /// "2 conflicts among 22 agents, 1.3 s in all", as `mobbscope conflicts` says it. Requires conflicts().
     std::string conflict_summary() const;
 
@@ -86,8 +89,9 @@ class CrowdInspector {
 /// Half a second before the two touch, global seconds.
 double time_before(const Workspace& workspace, const SceneConflict& conflict);
 
-/// Half a second before the two touch, along with one of them. Of a run it is who made the conflict; where that play is
-/// not yet chosen then, or the next one is already, the time is that of its choice, so that it is the last choice.
+/// Half a second before the two touch, along with one of them. Of a run it is who made the conflict: whose play the
+/// simulator would not have chosen, of two such plays the first; else whose was forced, or chosen last. Where that play
+/// is not yet chosen then, or the next one is already, the time is that of its choice, so that it is the last choice.
 ConflictPlace conflict_place(const Workspace& workspace, const SceneConflict& conflict);
 
 }  // namespace mobbscope::app

@@ -16,7 +16,8 @@ namespace mobbscope {
 namespace {
 
 constexpr double kTravels = 0.3;     // metres from a move's begin to its end: what is less is standing
-constexpr double kSamePlace = 1e-6;  // metres, degrees: as precisely as plays must join
+constexpr double kSamePlace = 1e-6;  // metres, degrees, seconds: as precisely as plays must join
+constexpr int kTries = 2000;         // places looked at for an agent before the floor counts as full
 
 /// Metres by which a disk reaches over a wall.
 double beyond_wall(const mobb::Disk& disk, glm::dvec2 area) {
@@ -26,8 +27,14 @@ double beyond_wall(const mobb::Disk& disk, glm::dvec2 area) {
 class Chooser {
   public:
     Chooser(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-            PlanSearch& search, std::vector<AskedPair>* asked)
-        : moves_(moves), reservations_(reservations), run_(run), point_(point), asked_(asked), search_(search) {
+            PlanSearch& search, std::vector<AskedPair>* asked, const std::optional<OtherAnswer>& other)
+        : moves_(moves),
+          reservations_(reservations),
+          run_(run),
+          point_(point),
+          asked_(asked),
+          other_(other),
+          search_(search) {
         search_.start(point.agent, point.play, asked);
         choice_.time = point.time;
         placements_.start(point.before.move, before_, moves.after(point.before.move));
@@ -103,8 +110,18 @@ class Chooser {
     /// Those from `first` on.
     void check_candidates(std::size_t first) {
         check_against_others(first, false);
+        Candidate* const other = supposed_of(first);
+        if (other && !other_->about_way) other->met = other->met == Met::nobody ? Met::play : Met::nobody;
         for (const std::size_t i : those(first, &Candidate::is_free))
             choice_.candidates[i].in_the_way = reservations_.in_the_way(*motions_[i], nearby_);
+        if (other && other_->about_way) other->in_the_way = !other->in_the_way;
+    }
+
+    /// The candidate of the other answer, if it is one of those from `first` on and stays on the floor; else null.
+    Candidate* supposed_of(std::size_t first) {
+        if (!other_ || other_->candidate < first || other_->candidate >= choice_.candidates.size()) return nullptr;
+        Candidate& out = choice_.candidates[other_->candidate];
+        return out.leaves_floor ? nullptr : &out;
     }
 
     /// If all leave the floor, the least harm is done by one of them.
@@ -272,6 +289,7 @@ class Chooser {
     const CrowdRun& run_;
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
+    std::optional<OtherAnswer> other_;
     OrientedPlacement before_{point_.before.placement};
     FollowingPlacements placements_{moves_};
     PlanSearch& search_;
@@ -312,6 +330,14 @@ std::optional<PlayedMove> joint_to(const MoveSet& moves, const ChoicePoint& poin
                        candidate.played, candidate.turn_deg);
 }
 
+/// The same move at the same place and time.
+bool is_played(const Candidate& candidate, const Play& play) {
+    const glm::dvec2 aside = candidate.placement.translate - play.placement.translate;
+    const double turn = std::remainder(candidate.placement.rotate_deg - play.placement.rotate_deg, 360.0);
+    return candidate.played == play.move && std::hypot(aside.x, aside.y) <= kSamePlace &&
+           std::abs(turn) <= kSamePlace && std::abs(candidate.placement.start - play.placement.start) <= kSamePlace;
+}
+
 std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& reservations, const ChoicePoint& point,
                                   const Candidate& candidate) {
     if (candidate.met == Met::nobody) return std::nullopt;
@@ -327,8 +353,36 @@ std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& 
 }  // namespace
 
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-              PlanSearch& search, std::vector<AskedPair>* asked) {
-    return Chooser(moves, reservations, run, point, search, asked).choose();
+              PlanSearch& search, std::vector<AskedPair>* asked, const std::optional<OtherAnswer>& other) {
+    return Chooser(moves, reservations, run, point, search, asked, other).choose();
+}
+
+std::optional<Play> first_play(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run,
+                               int agent, PlanSearch& search) {
+    CounterRandom random(run.seed, static_cast<std::uint64_t>(agent), 0);
+    for (int i = 0; i < kTries; ++i) {
+        const int move = moves.unturned()[random.below(static_cast<std::uint32_t>(moves.unturned().size()))];
+        mobb::Placement placement;
+        placement.rotate_deg = 360 * random.unit() - 180;
+        placement.start = -moves.until_joint(move) * random.unit();
+        // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
+        OrientedPlacement at(placement);
+        const FloorRect bounds = moves.clip(move).bounds.bounds(at);
+        const glm::dvec2 room = run.area - (bounds.high - bounds.low);
+        const double across = random.unit(), along = random.unit();
+        if (room.x < 0 || room.y < 0) continue;
+        at.placement.translate = -run.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
+        if (!bounds_on_floor(moves.clip(move), at, run.area)) continue;
+        const PlayedMove motion = moves.motion(agent, 0, move, at);
+        const ReservationTable::Nearby nearby = reservations.nearby(motion);
+        if (!nearby.motions.is_clear(motion) || !nearby.plans.is_clear(motion)) continue;
+        search.start(agent, 0);
+        const bool has_way_on = search.look(move, at);
+        // Where the floor is nearly full, any place will do.
+        if (i < kTries / 2 && (!has_way_on || reservations.in_the_way(motion, nearby))) continue;
+        return Play{move, at.placement, at.placement.start, PlayKind::chosen, search.plan()};
+    }
+    return std::nullopt;
 }
 
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play) {
@@ -357,12 +411,14 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     return choice;
 }
 
+std::optional<std::size_t> candidate_played(const Play& play, const Choice& choice) {
+    const auto at = std::ranges::find_if(choice.candidates, [&](const Candidate& of) { return is_played(of, play); });
+    return at == choice.candidates.end() ? std::nullopt
+                                         : std::optional(static_cast<std::size_t>(at - choice.candidates.begin()));
+}
+
 bool comes_out_as(const Play& play, const Choice& choice) {
-    const Candidate& taken = choice.candidates[choice.taken];
-    const glm::dvec2 aside = taken.placement.translate - play.placement.translate;
-    const double turn = std::remainder(taken.placement.rotate_deg - play.placement.rotate_deg, 360.0);
-    return taken.played == play.move && choice.kind == play.kind && choice.plan == play.plan &&
-           std::hypot(aside.x, aside.y) <= kSamePlace && std::abs(turn) <= kSamePlace;
+    return is_played(choice.candidates[choice.taken], play) && choice.kind == play.kind && choice.plan == play.plan;
 }
 
 std::optional<int> last_chosen(const CrowdAgent& agent, double time) {

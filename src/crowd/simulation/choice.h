@@ -53,6 +53,18 @@ struct ChoicePoint {
     double time = 0;
 };
 
+/// An answer about a candidate, taken to be the other one: to see what would have been chosen.
+struct OtherAnswer {
+    std::size_t candidate = 0;  ///< index into Choice::candidates
+    bool about_way = false;     ///< whether it is in the way; else whether it collides
+};
+
+/// Where an agent begins: a first move, begun some time ago, somewhere on the floor where it collides with nobody and,
+/// if there is room, ends in nobody's way. None: no room was found. The random numbers depend on (seed, agent) alone.
+/// `search` as in choose.
+std::optional<Play> first_play(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run,
+                               int agent, PlanSearch& search);
+
 /// Makes a choice. The candidates are the moves that may follow, straight on. A joint that leads to a candidate is part
 /// of it: it is tested before it. One is drawn that stays on the floor, has
 /// no blocker and is not in the way, until one has a way on: a plan that lasts CrowdRun::plan seconds and collides with
@@ -67,12 +79,16 @@ struct ChoicePoint {
 /// least far beyond the wall. The random number depends on (seed, agent, play) alone. `search` is
 /// started anew; it has the same moves, reservations and run.
 Choice choose(const MoveSet& moves, const ReservationTable& reservations, const CrowdRun& run, const ChoicePoint& point,
-              PlanSearch& search, std::vector<AskedPair>* asked = nullptr);
+              PlanSearch& search, std::vector<AskedPair>* asked = nullptr,
+              const std::optional<OtherAnswer>& other = {});
 
 /// Repeats the choice of one play of a run, with clips and blockers; it is exactly as it was if the run has not been
 /// changed since it was simulated. An agent's first play was placed, not chosen: its choice has that play as the only
 /// candidate. Throws std::out_of_range if there is no such agent or play.
 Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play);
+
+/// The candidate of a choice made again that a play of the run is; none: it is none of them.
+std::optional<std::size_t> candidate_played(const Play& play, const Choice& choice);
 
 /// A choice, and the agent and play that it belongs to.
 struct FollowedChoice {
@@ -83,8 +99,8 @@ struct FollowedChoice {
 };
 
 /// Whether a choice made again takes what the run plays: the same move turned as far, as chosen, pivoted or forced, at
-/// the same place to a millionth of a metre and degree. It does not where the run or its clips were edited after it was
-/// simulated.
+/// the same place and time to a millionth of a metre, degree and second, with the same plan. It does not where the run
+/// or its clips were edited after it was simulated.
 bool comes_out_as(const Play& play, const Choice& choice);
 
 /// The agent's play that was chosen last before or at a time; none before its first choice.

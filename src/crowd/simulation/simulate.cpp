@@ -20,7 +20,6 @@ namespace mobbscope {
 namespace {
 
 constexpr double kLeastMove = 0.01;  // seconds: of shorter ones a run would have no end of choices
-constexpr int kTries = 2000;         // places looked at for an agent before the floor counts as full
 constexpr double kReports = 100;     // of progress in a run
 
 struct Turn {
@@ -87,36 +86,11 @@ class Simulator {
         }
     }
 
-    /// A first move, begun some time ago, somewhere on the floor where it collides with nobody and, if there is room,
-    /// ends in nobody's way.
     void place(int agent) {
-        CounterRandom random(options_.seed, static_cast<std::uint64_t>(agent), 0);
-        for (int i = 0; i < kTries; ++i) {
-            const int move = moves_.unturned()[random.below(static_cast<std::uint32_t>(moves_.unturned().size()))];
-            mobb::Placement placement;
-            placement.rotate_deg = 360 * random.unit() - 180;
-            placement.start = -moves_.until_joint(move) * random.unit();
-            // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
-            OrientedPlacement at(placement);
-            const FloorRect bounds = moves_.clip(move).bounds.bounds(at);
-            const glm::dvec2 room = options_.area - (bounds.high - bounds.low);
-            const double across = random.unit(), along = random.unit();
-            if (room.x < 0 || room.y < 0) continue;
-            at.placement.translate = -options_.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
-            if (!bounds_on_floor(moves_.clip(move), at, options_.area)) continue;
-            const PlayedMove motion = moves_.motion(agent, 0, move, at);
-            const ReservationTable::Nearby nearby = reservations_.nearby(motion);
-            if (!nearby.motions.is_clear(motion) || !nearby.plans.is_clear(motion)) continue;
-            Play play{move, at.placement, at.placement.start, PlayKind::chosen};
-            search_.start(agent, 0);
-            const bool has_way_on = search_.look(move, at);
-            play.plan = search_.plan();
-            // Where the floor is nearly full, any place will do.
-            if (i < kTries / 2 && (!has_way_on || reservations_.in_the_way(motion, nearby))) continue;
+        if (const auto play = first_play(moves_, reservations_, simulation_.run, agent, search_)) {
             simulation_.run.agents.push_back({std::to_string(agent + 1), {}});
             ++counts().agents;
-            commit(agent, play);
-            return;
+            return commit(agent, *play);
         }
         throw InputError("there is no room for agent " + std::to_string(agent + 1) + " of " +
                          std::to_string(options_.agents) + " on a floor of " + brief(options_.area.x) + " x " +

@@ -1,4 +1,7 @@
+#include <base/sentences.h>
 #include <base/text.h>
+#include <explain/certificate.h>
+#include <explain/clearance.h>
 #include <explain/query_sentence.h>
 #include <mobb/traversal.h>
 #include <render/drawlist/pen.h>
@@ -295,12 +298,82 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
     };
     const std::optional<TurnedMove>& turned = run.graph->moves[static_cast<std::size_t>(play.move)].turned;
     const PlannedMove played = turned ? PlannedMove{turned->move, turned->deg} : PlannedMove{play.move, 0};
-    const Candidate& taken = choice.candidates[choice.taken];
     std::string text = agent_name(run, followed.agent) + " plays " + named(played, play.kind) + at_time(choice.time) +
-                       ", but made again the choice is " + named({taken.move, taken.turn_deg}, choice.kind);
-    if (taken.played == play.move && choice.kind == play.kind) text += ", elsewhere";
+                       ", but made again the choice is ";
+    if (choice.candidates.empty()) {
+        text += "none, as there is no room";
+    } else {
+        const Candidate& taken = choice.candidates[choice.taken];
+        text += named({taken.move, taken.turn_deg}, choice.kind);
+        if (taken.played == play.move && choice.kind == play.kind) {
+            if (candidate_played(play, choice) != choice.taken) text += ", elsewhere";
+            if (choice.plan != play.plan) text += ", with another plan";
+        }
+    }
     return text +
            ": seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong";
+}
+
+DecidingTrace trace_of(const DecidingQuery& query, const mobb::FitOptions& fit) {
+    const mobb::Tree of_candidate(query.candidate.clip, fit), of_other(query.other.clip, fit);
+    const mobb::PlacedTree a(of_candidate, query.candidate.placement), b(of_other, query.other.placement);
+    DecidingTrace out{record(a, b)};
+    out.step = out.recorded.trace.size() - 1;
+    const Clearance clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
+    if (out.recorded.contact || !clearance.least) return out;
+    const double nearest = clearance.pieces[*clearance.least].least_at;
+    for (const TraversalEnd& end : deciding_events(a, b, out.recorded.trace)) {
+        if (end.t0 <= nearest) out.step = end.step;
+    }
+    return out;
+}
+
+std::string name_of(const MoveSet& moves, const AskedSide& side) {
+    return (side.is_joint ? "joint to " : "") + name_of(moves.fitted().scene(), moves.origin(side.move));
+}
+
+std::vector<std::string> difference_lines(const MoveSet& moves, const RunDifference& difference) {
+    const Scene& run = moves.fitted().scene();
+    const FollowedChoice& remade = difference.remade;
+    const Choice& choice = remade.choice;
+    std::vector<std::string> out{edited_run_warning(run, remade)};
+    // A first play is placed, not chosen.
+    if (remade.play == 0) return out;
+    out.push_back("then: " + (difference.played ? candidate_sentence(run, choice, *difference.played)
+                                                : "what it plays is none of the candidates"));
+    out.push_back("now: " + candidate_sentence(run, choice, choice.taken));
+    out.push_back(choice_sentence(run, remade));
+    if (difference.due) {
+        const auto [then, now] = told_apart(choice.time, *difference.due, to_thousandth);
+        out.push_back("chosen at " + then + " s, where the simulator chooses at " + now + " s");
+    }
+    if (difference.played == choice.taken) return out;
+    if (!difference.query) {
+        if (!difference.other) {
+            out.push_back("no single other answer about a candidate leads to what it plays");
+            return out;
+        }
+        const Candidate& about = choice.candidates[difference.other->candidate];
+        out.push_back("decided by whether " + name_of(run, {about.move, about.turn_deg}) +
+                      (difference.other->about_way ? " ends in somebody's way" : " collides with anybody"));
+        return out;
+    }
+    const DecidingQuery& query = *difference.query;
+    const DecidingTrace traced = trace_of(query, moves.fitted().options());
+    const auto side = [&](const AskedSide& of) {
+        return (of.is_planned ? "what " + agent_name(run, of.agent) + " plans" : agent_name(run, of.agent)) + " (" +
+               name_of(moves, of) + at_time(of.placement.start) + ")";
+    };
+    std::string text = "decided by the query of " + side(query.candidate) + " against " + side(query.other) + ": they ";
+    text += traced.recorded.contact ? "collide" + at_time(traced.recorded.contact->time) : "never collide";
+    if (traced.step >= 0) {
+        const mobb::Trace::Event event = traced.recorded.trace[traced.step];
+        text += "; " + step_of(traced.step, traced.recorded.trace) + ", " + std::to_string(event.a) + " x " +
+                std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) + ": " +
+                plain_outcome(event, brief);
+    }
+    out.push_back(difference.other ? text + "; with the other answer the simulator takes what the run plays" : text);
+    return out;
 }
 
 std::vector<LabelRequest> add_candidates(DrawList& list, const FittedScene& fitted, const FollowedChoice& followed,

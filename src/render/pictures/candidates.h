@@ -1,7 +1,7 @@
 /// The moves that an agent could choose, as ways, and what became of each.
 #pragma once
 
-#include <crowd/simulation/choice.h>
+#include <crowd/simulation/run_check.h>
 #include <render/drawlist/draw_list.h>
 #include <render/drawlist/picture_options.h>
 #include <render/text/labels.h>
@@ -42,6 +42,20 @@ std::string choice_sentence(const Scene& run, const FollowedChoice& followed);
 /// run: seed, grace, plays or clips were edited since, another version simulated it, or an answer was wrong"; of others
 /// nothing.
 std::string edited_run_warning(const Scene& run, const FollowedChoice& followed);
+
+/// The query that decides a choice, asked through trees of that fit.
+struct DecidingTrace {
+    RecordedQuery recorded;
+    int step = 0;  ///< that finds the contact, or that decided about when the two are nearest; -1: none was needed
+};
+DecidingTrace trace_of(const DecidingQuery& query, const mobb::FitOptions& fit);
+
+/// A move of the set, or a joint: "walk, turned by 30\u00B0", "joint to walk".
+std::string name_of(const MoveSet& moves, const AskedSide& side);
+
+/// A play that the simulator would not choose: what it is and what would be, what became of either candidate, and the
+/// query that decides with its step; a line each, without a stop.
+std::vector<std::string> difference_lines(const MoveSet& moves, const RunDifference& difference);
 
 /// Adds the ways: at a moment on the floor, in space-time upwards. Where one is ruled out, the two disks that meet are
 /// outlined, with a cross between them; the returned labels name the agents that rule out, each once.
