@@ -178,8 +178,8 @@ void write_played(JsonWriter& out, const char* key, const MoveSet& moves, const 
 void write_asked(JsonWriter& out, const char* key, const MoveSet& moves, const AskedSide& side) {
     out.begin_object(key, JsonWriter::Layout::row);
     out.members("agent", moves.fitted().scene().crowd->agents[static_cast<std::size_t>(side.agent)].name, "clip",
-                name_of(moves, side), "translate", side.placement.translate, "rotate_deg", side.placement.rotate_deg,
-                "start", side.placement.start);
+                name_of(moves, side), "planned", side.is_planned, "translate", side.placement.translate, "rotate_deg",
+                side.placement.rotate_deg, "start", side.placement.start);
     out.end_object();
 }
 

@@ -82,7 +82,8 @@ TEST(RunCheck, TheFirstWrongChoiceIsNamedWhetherItLeadsToAContactOrNot) {
             const Candidate& played = difference.remade.choice.candidates[*difference.played];
             EXPECT_EQ(played.placement, play->placement);
             (collides ? colliding : free) += 1;
-            if (!collides || !difference.query || difference.other->candidate != *difference.played) continue;
+            if (!collides || (difference.other && difference.other->candidate != *difference.played)) continue;
+            ASSERT_TRUE(difference.query) << "what rules it out";
             EXPECT_TRUE(difference.query->collides);
             EXPECT_EQ(difference.query->candidate.agent, agent);
             EXPECT_EQ(difference.query->other.agent, played.blocker->agent);

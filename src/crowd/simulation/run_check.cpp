@@ -109,8 +109,10 @@ class RunChecker {
             if (candidate_played(play, then) != then.taken) continue;
             out.other = other;
             if (!other.about_way) out.query = query_about(point, choice.candidates[other.candidate]);
-            break;
+            return out;
         }
+        if (out.played && choice.candidates[*out.played].blocker)
+            out.query = query_about(point, choice.candidates[*out.played]);
         return out;
     }
 
@@ -134,14 +136,15 @@ class RunChecker {
 
     /// Of a candidate that collides with the one it meets, else with the one that comes nearest.
     std::optional<DecidingQuery> query_about(const ChoicePoint& point, const Candidate& candidate) const {
-        DecidingQuery out{{point.agent, candidate.played, false, candidate.clip, candidate.placement}, {}, false};
+        DecidingQuery out{{point.agent, candidate.played, false, false, candidate.clip, candidate.placement}, {}};
         if (const auto& blocker = candidate.blocker) {
             if (blocker->before_candidate) {
                 out.candidate.is_joint = true;
                 out.candidate.clip = candidate.joint->clip;
                 out.candidate.placement = candidate.joint->placement;
             }
-            out.other = {blocker->agent, blocker->move, blocker->is_joint, blocker->clip, blocker->placement};
+            out.other = {blocker->agent,       blocker->move, blocker->is_joint,
+                         blocker->planned > 0, blocker->clip, blocker->placement};
             out.collides = true;
             return out;
         }
@@ -155,8 +158,12 @@ class RunChecker {
             const double distance = least_distance(motion, pair.reserved);
             if (!(distance < least)) continue;
             least = distance;
-            out.other = {pair.reserved.agent, pair.reserved.move, pair.reserved.is_joint,
-                         pair.reserved.playable->blocks.shared_clip(), pair.reserved.at.placement};
+            out.other = {pair.reserved.agent,
+                         pair.reserved.move,
+                         pair.reserved.is_joint,
+                         pair.reserved.planned > 0,
+                         pair.reserved.playable->blocks.shared_clip(),
+                         pair.reserved.at.placement};
         }
         return out.other.clip ? std::optional(std::move(out)) : std::nullopt;
     }

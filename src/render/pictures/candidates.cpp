@@ -348,12 +348,12 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
         out.push_back("chosen at " + then + " s, where the simulator chooses at " + now + " s");
     }
     if (difference.played == choice.taken) return out;
-    if (!difference.other) {
-        out.push_back("no single other answer about a candidate leads to what it plays");
-        return out;
-    }
-    const Candidate& about = choice.candidates[difference.other->candidate];
     if (!difference.query) {
+        if (!difference.other) {
+            out.push_back("no single other answer about a candidate leads to what it plays");
+            return out;
+        }
+        const Candidate& about = choice.candidates[difference.other->candidate];
         out.push_back("decided by whether " + name_of(run, {about.move, about.turn_deg}) +
                       (difference.other->about_way ? " ends in somebody's way" : " collides with anybody"));
         return out;
@@ -361,7 +361,8 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
     const DecidingQuery& query = *difference.query;
     const DecidingTrace traced = trace_of(query, moves.fitted().options());
     const auto side = [&](const AskedSide& of) {
-        return agent_name(run, of.agent) + " (" + name_of(moves, of) + at_time(of.placement.start) + ")";
+        return (of.is_planned ? "what " + agent_name(run, of.agent) + " plans" : agent_name(run, of.agent)) + " (" +
+               name_of(moves, of) + at_time(of.placement.start) + ")";
     };
     std::string text = "decided by the query of " + side(query.candidate) + " against " + side(query.other) + ": they ";
     text += traced.recorded.contact ? "collide" + at_time(traced.recorded.contact->time) : "never collide";
@@ -371,7 +372,7 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
                 std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) + ": " +
                 plain_outcome(event);
     }
-    out.push_back(text + "; with the other answer the simulator takes what the run plays");
+    out.push_back(difference.other ? text + "; with the other answer the simulator takes what the run plays" : text);
     return out;
 }
 
