@@ -68,7 +68,7 @@ void write_pictures(const DiffCommandArguments& arguments, Image a, Image b, Ima
     }
     if (arguments.strip) {
         const Image pictures = strip_of(arguments, a, b, found);
-        a = b = found.heat = {};
+        for (Image* const packed : {&a, &b, &found.heat}) *packed = {};
         strip = png_bytes(pictures);
         files.push_back({*arguments.strip, strip});
     }
