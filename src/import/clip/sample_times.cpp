@@ -38,7 +38,8 @@ void warn_of_coarse_times(const mobb::Clip& clip, double start, std::vector<Impo
 }
 
 void check_file_times(double dt, double latest) {
-    if (std::abs(latest) <= mobb::most_start(dt, 0)) return;
+    // A clip says itself that its dt is too small.
+    if (!(dt > mobb::kLeastDt) || std::abs(latest) <= mobb::most_start(dt, 0)) return;
     throw std::invalid_argument("its times reach " + brief(latest) + " s, where doubles tell times apart by " +
                                 figure(rounding_at(latest), 2) + " s, and its samples are " + brief(dt) +
                                 " s apart; count times from a later moment");
