@@ -49,7 +49,7 @@ bool is_told(const CaseResult& result) {
 }
 
 /// Whether accepting what is told at this place would write the file of the case.
-bool brings_case(const JsonPlace& result) {
+bool would_write_case(const JsonPlace& result) {
     bool brings = false;
     result.require("fresh").each(
         [&](const JsonPlace& one) { brings = brings || one.require("golden").string() == kCaseExtension; });
@@ -106,7 +106,7 @@ CaseReport read_report(const std::filesystem::path& report, const std::filesyste
             others.push_back(read_result(result, {case_named(*told, of)}));
         } else if (std::ranges::find(cases, of, &CaseFile::name) != cases.end()) {
             out.results.push_back(read_result(result, cases));
-        } else if (is_case_name(of) && brings_case(result)) {
+        } else if (is_case_name(of) && would_write_case(result)) {
             out.results.push_back(read_result(result, {case_named(folder, of)}));
         } else {
             out.unknown.push_back(of);

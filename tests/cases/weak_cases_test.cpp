@@ -56,8 +56,7 @@ TEST(WeakCases, AreThoseThatSeeHardlyAnything) {
 CaseResult bringing(const CaseFile& file, const std::string& keys) {
     CaseResult out;
     out.file = file;
-    out.fresh = {{file.file, R"({"mobbscope_case": 1, "scene": "scene.json", )" + keys + "}",
-                  golden_bytes(file.file)}};
+    out.fresh = {{file.file, R"({"mobbscope_case": 1, "scene": "scene.json", )" + keys + "}", golden_bytes(file.file)}};
     return out;
 }
 
