@@ -57,12 +57,13 @@ class Trials {
           // The tree is the caller's.
           now_(costs_of(std::shared_ptr<const mobb::Tree>(std::shared_ptr<void>(), &tree))) {}
 
-    /// The part of the cost that the other one saves; 0 where it saves nothing, or where that may be chance.
+    /// The part of the cost that the other one saves; 0 where it saves nothing, where that may be chance, and of
+    /// blocks, whose tests have no price.
     double saved_by(std::shared_ptr<const mobb::Tree> other) const {
         std::vector<double> saved = costs_of(std::move(other));
         for (std::size_t i = 0; i < saved.size(); ++i) saved[i] = now_[i] - saved[i];
         const Spread spread = spread_of(saved);
-        if (spread.mean <= kSureErrors * spread.standard_error) return 0;
+        if (!(spread.mean > kSureErrors * spread.standard_error)) return 0;
         return spread.mean / spread_of(now_).mean;
     }
     double saved_by(const mobb::FitOptions& other) const {
@@ -71,10 +72,9 @@ class Trials {
 
   private:
     std::vector<double> costs_of(std::shared_ptr<const mobb::Tree> tree) const {
-        const MeanTests& prices = prices_of(tree->options().tree);
         std::vector<double> out;
         for (const mobb::TestCounts& tests : count_tests(workload_, std::array{std::move(tree)}, 0, progress_))
-            out.push_back(cost_of(tests, prices));
+            out.push_back(cost_of(tests));
         return out;
     }
 

@@ -156,14 +156,14 @@ MeanTests mean_tests(std::span<const mobb::TestCounts> counts) {
     return out;
 }
 
-double cost_of(const MeanTests& tests, const MeanTests& prices) {
+double cost_of(const MeanTests& tests) {
     double sum = 0;
-    for (const mobb::TestKind kind : mobb::kTestKinds) sum += tests[kind] > 0 ? tests[kind] * prices[kind] : 0;
+    for (const mobb::TestKind kind : mobb::kTestKinds) sum += tests[kind] > 0 ? tests[kind] * kTestPrices[kind] : 0;
     return sum;
 }
 
-double cost_of(const mobb::TestCounts& tests, const MeanTests& prices) {
-    return cost_of(mean_tests(std::span(&tests, 1)), prices);
+double cost_of(const mobb::TestCounts& tests) {
+    return cost_of(mean_tests(std::span(&tests, 1)));
 }
 
 double standard_error(double squares, std::size_t count) {

@@ -122,16 +122,10 @@ inline constexpr MeanTests kTestPrices = [] {
     out[mobb::TestKind::samples] = 1.4;
     return out;
 }();
-/// The same of the block query (mobb/blocks.h), which tests several at a time; its one test of times stands for all
-/// that every query takes.
-inline constexpr MeanTests kBlockTestPrices{{5.6, 0, 0, 0, 0, 0.3, 1.9}};
-constexpr const MeanTests& prices_of(mobb::TreeKind kind) {
-    return mobb::info(kind).has_blocks() ? kBlockTestPrices : kTestPrices;
-}
 
 /// ns; NaN where a test has no price.
-double cost_of(const MeanTests& tests, const MeanTests& prices = kTestPrices);
-double cost_of(const mobb::TestCounts& tests, const MeanTests& prices = kTestPrices);
+double cost_of(const MeanTests& tests);
+double cost_of(const mobb::TestCounts& tests);
 
 /// A difference of fewer standard errors may be chance.
 inline constexpr double kSureErrors = 3;

@@ -55,9 +55,8 @@ struct TreeCost {
     PlacementCount count{};
     std::shared_ptr<const ExpectedCost> expected{};
 
-    const MeanTests& prices() const { return prices_of(tree->options().tree); }
     /// ns, of some tests of the tree
-    double ns(const MeanTests& some) const { return cost_of(some, prices()); }
+    double ns(const MeanTests& some) const { return cost_of(some); }
     double ns() const { return ns(tests); }
     /// The part of the cost that some of its tests are, 0 to 1.
     double part(const MeanTests& some) const;

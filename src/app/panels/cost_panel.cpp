@@ -74,7 +74,7 @@ std::string formula(const TreeCost& cost) {
 std::string price_words(mobb::TestKind kind, const MeanTests& tests, const TreeCost& cost) {
     MeanTests alone;
     alone[kind] = tests[kind];
-    return tested(kind) + ": " + figure(tests[kind]) + " tests x " + brief(cost.prices()[kind]) +
+    return tested(kind) + ": " + figure(tests[kind]) + " tests x " + brief(kTestPrices[kind]) +
            " ns = " + figure(cost.ns(alone)) + " ns";
 }
 
@@ -176,7 +176,7 @@ void kinds(Ui& ui, const TreeCost& cost) {
         const float priced = width - of_part;
         if (shows_prices) {
             const float at_price = corner.x + priced - of_price;
-            draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(cost.prices()[kind]));
+            draw_text(draw, mono, {at_price, y}, ui.style.quiet, " x " + brief(kTestPrices[kind]));
         }
         ending(shows_prices ? priced - of_price : priced, ui.style.text, figure(tests[kind], 3),
                {.value = tests[kind], .tip = about});
