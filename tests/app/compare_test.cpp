@@ -150,7 +150,7 @@ TEST(CompareWindow, AClipThatWasAlteredIsNamedWhenItsFileIsOpened) {
     w.open(text);
     EXPECT_TRUE(w.session.notifications.all().empty());
     const std::size_t dt = text.find("\"dt\": ") + 6;
-    w.open(text.substr(0, dt) + " 0.5" + text.substr(text.find(',', dt)));
+    w.open(text.substr(0, dt) + " 0.25" + text.substr(text.find(',', dt)));
     ASSERT_FALSE(w.session.notifications.all().empty());
     EXPECT_NE(w.session.notifications.all().front().text.find("are not those that were captured"), std::string::npos);
 }

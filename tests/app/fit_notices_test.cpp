@@ -24,7 +24,7 @@ std::string walk_with_a_jump() {
 }
 
 struct NoticesWindow : FolderWindow<TempFolder> {
-    NoticesWindow() : FolderWindow({1280, 1100}) { open(walk_with_a_jump()); }
+    NoticesWindow() : FolderWindow({1280, 1300}) { open(walk_with_a_jump()); }
     void open(const std::string& scene) {
         session.files.open({folder.write("scene.json", scene)});
         window.settle();

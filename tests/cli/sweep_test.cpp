@@ -50,8 +50,12 @@ void expect_advice(const json& sweep, const std::string& protocol) {
         EXPECT_GE(ns, least);
         const bool is_told = std::ranges::any_of(undecided, [&](const json& fit) { return is_fit(fit, row); });
         // Fits that make the same trees are told of once.
-        if (is_told) EXPECT_LE(low, least + error);
-        if (ns > least && low > least + error) EXPECT_FALSE(is_told);
+        if (is_told) {
+            EXPECT_LE(low, least + error);
+        }
+        if (ns > least && low > least + error) {
+            EXPECT_FALSE(is_told);
+        }
     }
     EXPECT_FALSE(sweep["why"][protocol].get<std::string>().empty());
 }
@@ -104,7 +108,9 @@ TEST(Sweep, EstimatesAreTheSameEachTime) {
     // The search for the fastest may add rows.
     for (const json& row : first["rows"]) {
         for (const json& other : again["rows"]) {
-            if (is_fit(row, other) && row["clip"] == other["clip"]) EXPECT_EQ(row["cost"], other["cost"]);
+            if (is_fit(row, other) && row["clip"] == other["clip"]) {
+                EXPECT_EQ(row["cost"], other["cost"]);
+            }
         }
     }
     EXPECT_EQ(first["workload"], again["workload"]);

@@ -59,7 +59,7 @@ TEST(ProofWords, SayWhatIsProvenAndByHowMuch) {
 
 TEST(ProofWords, OneBoundReadsTheSameEverywhere) {
     const Certificate miss{std::nullopt, {{0, 1, {1, 0}, 0, 0.0716}}};
-    EXPECT_NE(proof_words(miss, {}).find("Never closer than 0.071 m"), std::string::npos);
+    EXPECT_NE(proof_words(miss, {}).find("Proven bound: at least 0.071 m apart"), std::string::npos);
     EXPECT_EQ(gap_words(0.0716), "0.071 m");
     EXPECT_EQ(proven_words(0.072, "m"), "0.072 m") << "rounding takes nothing from a number that ends there";
 }

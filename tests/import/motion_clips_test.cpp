@@ -228,10 +228,8 @@ TEST(MotionClips, NamesAndZerosDoNotTakeHours) {
     for (int i = 0; i < 2000; ++i) text += "JOINT j\n{OFFSET 0 0 0}\n";
     text += "}\nMOTION\nFrames: 60000\nFrame Time: 0.001\n";
     for (int i = 0; i < 60'000; ++i) text += "0\n";
-    EXPECT_EQ(
-        input_error([&] { clip_of(text); }),
-        "some/walk.bvh: needs 2001 joints and layers of curves for each of 60000 frames, which is too much; check the "
-        "file, or lower fps");
+    const std::string refusal = input_error([&] { clip_of(text); });
+    EXPECT_NE(refusal.find("walk.bvh: its frames would take more than"), std::string::npos) << refusal;
 }
 
 TEST(MotionClips, WarningsNameTheSamples) {

@@ -92,7 +92,7 @@ TEST(ClipTurn, BadKeysAreRefusedAtTheirPlace) {
     const TurnFolder of;
     const std::pair<std::string, const char*> cases[] = {
         {of.refusal(R"({"deg": 181, "seconds": 1})"), "/clips/turned/turn/deg: 181 is out of range"},
-        {of.refusal(R"({"deg": 30, "seconds": 0})"), "/clips/turned/turn/seconds: must be over 0"},
+        {of.refusal(R"({"deg": 30, "seconds": 0})"), "/clips/turned/turn/seconds: must be greater than 0"},
         {of.refusal(R"({"deg": 30})"), "/clips/turned/turn: the key 'seconds' is missing"},
         {of.refusal(R"({"deg": 30, "second": 1})"), "unknown key 'second'"},
         {of.refusal(R"({"deg": 30, "seconds": 4.5})"),

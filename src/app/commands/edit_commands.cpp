@@ -172,7 +172,7 @@ std::vector<Command> edit_commands() {
                  .enabled = [](const Workspace& workspace) { return workspace.history.can_look_forward(); },
                  .title_end = title_end_of<&History::can_look_forward, &History::look_forward_title>,
                  .also = "redo camera"}),
-        Command("edit.history", "History...", "Lists the edits; a click undoes or redoes up to one.",
+        Command("edit.history", "History...", "Lists the edits; a click goes back or forward to one.",
                 [](Dialogs& dialogs) { dialogs.open(Dialog::history); }, {.also = "log"}),
         Command("edit.go_to", "To a state of the history",
                 "Goes to a state of what was done, by its number from 0, the oldest.", go_to_state,

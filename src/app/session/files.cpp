@@ -360,7 +360,7 @@ void Files::save_as(const std::filesystem::path& file) {
     if (parts_.workspace.in_excerpt() && parts_.workspace.file && is_same_file(file, *parts_.workspace.file)) {
         throw InputError(file.string(), "", "the excerpt was taken from this file; save it under another name");
     }
-    if (parts_.workspace.file && is_same_file(file, *parts_.workspace.file) &&
+    if (parts_.workspace.file && is_same_file(file, *parts_.workspace.file) && time_of(file) &&
         std::exchange(parts_.workspace.file_time, time_of(file)) != time_of(file)) {
         throw InputError(file.string(), "",
                          "another program has written it since it was opened: save under another name, or save again "
