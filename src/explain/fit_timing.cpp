@@ -237,7 +237,7 @@ void level_rounds(Times& times, std::size_t block) {
     }
 }
 
-std::vector<FitTime> compared(Times times, std::size_t block, bool is_sample) {
+std::vector<FitTime> compare_times(Times times, std::size_t block, bool is_sample) {
     cut_outliers(times);
     level_rounds(times, block);
     const std::size_t stretches = times.front().front().size();
@@ -304,7 +304,7 @@ FitTimes time_fits(std::span<const FitTrees> fits, std::span<const ClipQuery> qu
         }
     }
     is_sample = is_sample || divided.asked < queries.size();
-    return {divided.asked, compared(std::move(times), divided.block / divided.stretch, is_sample)};
+    return {divided.asked, compare_times(std::move(times), divided.block / divided.stretch, is_sample)};
 }
 
 }  // namespace mobbscope

@@ -162,9 +162,7 @@ double cost_of(const MeanTests& tests) {
     return sum;
 }
 
-double cost_of(const mobb::TestCounts& tests) {
-    return cost_of(mean_tests(std::span(&tests, 1)));
-}
+double cost_of(const mobb::TestCounts& tests) { return cost_of(mean_tests(std::span(&tests, 1))); }
 
 double standard_error(double squares, std::size_t count) {
     const auto numbers = static_cast<double>(count);

@@ -3,9 +3,9 @@
 /// only.
 ///
 /// A clip is written with its samples, held or linear, and a digest of them; the two sides of query 3 are called A3 and
-/// B3. All queries of a file share one fit, that of the last query's A; answers do not depend on it. A chain is captured
-/// as its `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the angle at which
-/// it was placed, so you give it.
+/// B3. All queries of a file share one fit, that of the last query's A; answers do not depend on it. A chain is
+/// captured as its `flattened` clip, the fastest query (PlacedBlocks) as its clip and placement: neither keeps the
+/// angle at which it was placed, so you give it.
 #pragma once
 
 #include <mobb/query.h>

@@ -102,8 +102,7 @@ TEST(TableReport, SweepAndVariantsAreSetBesideTheBaselines) {
 TEST(TableReport, TextSaysWherePairsOfNodesEnd) {
     std::ostringstream text;
     write_text(text, report());
-    EXPECT_NE(text.str().find("2.0 levels, 3.0 nodes, 600 B a tree, built in 1.5 us"), std::string::npos)
-        << text.str();
+    EXPECT_NE(text.str().find("2.0 levels, 3.0 nodes, 600 B a tree, built in 1.5 us"), std::string::npos) << text.str();
     EXPECT_NE(text.str().find("0       1.000         25.0 %     50.0 %    0.0 %            75.0 %"), std::string::npos)
         << text.str();
 }

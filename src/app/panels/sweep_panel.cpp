@@ -33,7 +33,7 @@ std::string short_words(const mobb::FitOptions& fit, const mobb::FitOptions& bas
 }
 
 /// Whether there are times, and so advice. There are none in pictures that are to be the same each time.
-bool is_measured(const SweepResult& result) { return result.of(Protocol::warm).queries > 0; }
+bool has_times(const SweepResult& result) { return result.of(Protocol::warm).queries > 0; }
 
 /// "938 ns"
 std::string cost_text(double cost) { return figure(cost, 3) + " ns"; }
@@ -45,7 +45,7 @@ std::optional<std::size_t> row_of_now(const Ui& ui, const SweepResult& result) {
     return static_cast<std::size_t>(at - result.rows.begin());
 }
 
-std::string time_text(const std::optional<FitTime>& time) { return time ? figure(time->ns, 3) : "-"; }
+std::string ns_text(const std::optional<FitTime>& time) { return time ? figure(time->ns, 3) : "-"; }
 
 void tell_row(const SweepResult& result, const SweepRow& row) {
     std::string text = sweep_words(row.fit, result.order.present) + '\n';
@@ -184,14 +184,14 @@ std::vector<std::size_t> best_of_kinds(const SweepResult& result, std::size_t no
 void best_rows(Ui& ui, const SweepResult& result) {
     const std::vector<std::size_t> best = best_of_kinds(result, row_of_now(ui, result).value_or(result.present));
     const int count = static_cast<int>(best.size());
-    heading(ui, "FIT", is_measured(result) ? "WARM  COLD ns  MEMORY" : "ESTIMATED ns");
+    heading(ui, "FIT", has_times(result) ? "WARM  COLD ns  MEMORY" : "ESTIMATED ns");
     rows(ui, "sweep rows", count, count, [&](int k) {
         const SweepRow& fit = result.rows[best[static_cast<std::size_t>(k)]];
         std::string remark;
         std::vector<double> exact;
-        if (is_measured(result)) {
+        if (has_times(result)) {
             for (const Protocol protocol : kProtocols) {
-                remark += formatted("%5s ", time_text(fit.time(protocol)).c_str());
+                remark += formatted("%5s ", ns_text(fit.time(protocol)).c_str());
                 if (fit.time(protocol)) exact.push_back(fit.time(protocol)->ns);
             }
             remark += formatted("%8s", bytes_text(fit.bytes).c_str());
@@ -264,7 +264,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
         words(ui.style.warning, "The clips or queries have changed since fits were tried.");
         ui.mark_only("sweep.stale");
     } else if (!shown->rows->rows.empty()) {
-        if (is_measured(*shown->rows)) {
+        if (has_times(*shown->rows)) {
             for (const Protocol protocol : kProtocols) recommendation(ui, *shown->rows, protocol);
         } else if (shown->rows->has_ended()) {
             words(ui.style.quiet, "Not measured in a picture, which is the same each time: nothing is recommended.");

@@ -369,8 +369,7 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
     if (traced.step >= 0) {
         const mobb::Trace::Event event = traced.recorded.trace[traced.step];
         text += "; " + step_of(traced.step, traced.recorded.trace) + ", " + std::to_string(event.a) + " x " +
-                std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) + ": " +
-                plain_outcome(event);
+                std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) + ": " + plain_outcome(event);
     }
     out.push_back(difference.other ? text + "; with the other answer the simulator takes what the run plays" : text);
     return out;
