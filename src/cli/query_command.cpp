@@ -52,14 +52,11 @@ std::array<DrawnAgent, 2> sides_of(const FittedScene& fitted, const SceneQuery& 
 }
 
 /// A test in the words of its picture, behind its number, which `render --step` takes.
-void print_event(std::ostream& out, int step, std::span<const DrawnAgent> sides, const SceneQuery& query,
-                 const mobb::Trace::Event& event, const AvoidableOverlap* avoidable) {
+void print_event(std::ostream& out, int step, std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const std::string number = std::to_string(step);
     out << std::string(8 - std::min<std::size_t>(number.size(), 7), ' ') << number << "  "
         << std::string(2 * static_cast<std::size_t>(event.depth), ' ') << node_name(sides[0], event.a) << " against "
-        << node_name(sides[1], event.b) << "  " << mobb::name(event.test) << ": " << outcome_text(sides, event);
-    if (avoidable) out << ", avoidable: " << avoidable_words(*avoidable, cleaned(query.a.name), cleaned(query.b.name));
-    out << '\n';
+        << node_name(sides[1], event.b) << "  " << mobb::name(event.test) << ": " << outcome_text(sides, event) << '\n';
 }
 
 /// An answer proven, and how far it may be pushed.
@@ -129,8 +126,7 @@ void check_bodies(const FittedScene& fitted, const std::filesystem::path& file) 
 
 /// A sentence, the proof, the counts, and what else was asked for. Events of a trace take rows.
 void print_answer(std::ostream& out, std::size_t index, const FittedScene& fitted, const SceneQuery& query,
-                  const Answer& answer, const AvoidableOverlaps& avoidable, const std::optional<Proven>& proven,
-                  TextRows& rows) {
+                  const Answer& answer, const std::optional<Proven>& proven, TextRows& rows) {
     out << index << ": " << sentence(query, answer.contact) << '\n';
     if (proven) out << "   " << proof_words(proven->proof, proven->ends) << '\n';
     if (proven && proven->margins) out << "   " << margin_words(*proven->margins, cleaned(query.b.name)) << '\n';
@@ -157,8 +153,7 @@ void print_answer(std::ostream& out, std::size_t index, const FittedScene& fitte
         const std::array<DrawnAgent, 2> sides = sides_of(fitted, query);
         std::size_t left_out = 0;
         const auto print = [&](int step) {
-            rows.take() ? print_event(out, step, sides, query, (*answer.trace)[step], avoidable.at(step))
-                        : static_cast<void>(++left_out);
+            rows.take() ? print_event(out, step, sides, (*answer.trace)[step]) : static_cast<void>(++left_out);
         };
         if (!answer.steps) {
             out << ":\n";
@@ -250,8 +245,7 @@ std::vector<std::string> answer_all(const FittedScene& fitted, const QueryComman
             if (arguments.bodies) write_bodies_of(json, fitted, query, arguments.bone_radius);
             json.end_object();
         } else if (is_listed) {
-            print_answer(std::cout, index, fitted, query, found, avoidable, arguments.proof ? proven : std::nullopt,
-                         rows);
+            print_answer(std::cout, index, fitted, query, found, arguments.proof ? proven : std::nullopt, rows);
             if (arguments.bodies) print_bodies(std::cout, fitted, query, arguments.bone_radius);
         }
         if (!arguments.certificate.empty()) proofs.push_back({static_cast<int>(index), proven->proof});

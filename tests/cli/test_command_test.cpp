@@ -692,8 +692,8 @@ TEST_F(AcceptTest, RefusesWhatIsNoReport) {
     cut.resize(cut.find("mobbscope_report") + 200);
     cases.folder().write("cut.html", cut);
     expect_test_refused(accept(cases.path() / "cut.html"), "cut.html");
-    for (const char* other : {"--strict", "--json"}) expect_test_refused(accept(page, {other}), "--accept: ");
-    expect_test_refused(accept(page, {"--update", "all"}), "--accept: ");
+    for (const char* other : {"--strict", "--json"}) expect_test_refused(accept(page, {other}), "--accept");
+    expect_test_refused(accept(page, {"--update", "all"}), "--accept");
 }
 
 TEST_F(AcceptTest, RefusesADamagedReportAndWritesNothing) {
@@ -828,7 +828,7 @@ TEST_F(DrawnTestCommandTest, ShardsTogetherAreAllCases) {
     const Result empty = test({"--shard", "9/9"});
     EXPECT_EQ(empty.status, 0) << empty.err;
     EXPECT_PRED2(says, empty.out, ", shard 9/9: no cases");
-    expect_test_refused(test({"--shard", "1/2", "--accept", output.string()}), "--accept: ");
+    expect_test_refused(test({"--shard", "1/2", "--accept", output.string()}), "--accept");
 }
 
 TEST_F(DrawnTestCommandTest, ResultsStandInTheOrderOfTheCases) {

@@ -40,14 +40,16 @@ TEST(KeepPictures, WritesWhatThereIsIntoAFolderThatItMakes) {
     const std::filesystem::path deep = folder / "deep";
     EXPECT_EQ(all,
               (std::vector<std::filesystem::path>{deep / "a.actual.png", deep / "a.golden.png", deep / "a.heat.png"}));
-    EXPECT_EQ(read_png(all[0]).rgba, filled(200).rgba);
-    EXPECT_EQ(read_png(all[1]).rgba, filled(10).rgba);
 
     const std::vector<std::filesystem::path> one =
         keep_pictures(result_of(file, CaseOutcome::missing_golden, filled(200), {}), folder);
     EXPECT_EQ(one, std::vector<std::filesystem::path>{deep / "a.actual.png"});
     EXPECT_FALSE(std::filesystem::exists(all[1])) << "of an earlier run";
     EXPECT_FALSE(std::filesystem::exists(all[2])) << "of an earlier run";
+
+    keep_pictures(result_of(file, CaseOutcome::different, filled(200), filled(10)), folder);
+    EXPECT_EQ(read_png(all[0]).rgba, filled(200).rgba);
+    EXPECT_EQ(read_png(all[1]).rgba, filled(10).rgba);
 }
 
 TEST(Take, MakesTheGoldensWhatIsFresh) {

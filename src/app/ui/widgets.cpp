@@ -452,7 +452,10 @@ void clipped_rows(Ui& ui, const char* name, int count, float height, const std::
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
             ui.focus.row(i);
             draw(i);
-            if (scrolls && i == shown_first) ImGui::SetScrollHereY();
+            if (scrolls && i == shown_first) {
+                ImGui::SetScrollHereY();
+                ui.want_frame_in(0);
+            }
         }
     }
     ui.focus.end_list();
