@@ -376,7 +376,8 @@ fs::path meant(const fs::path& file) {
     // Behind a folder that is not there stands what no link was followed for: "none/../link".
     fs::path target = fs::weakly_canonical(at, error);
     if (!error) target = fs::weakly_canonical(target, error);
-    return error ? at : target;
+    if (error) return at;
+    return target.has_filename() ? target : target.parent_path();  // "folder/" means the folder
 }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
