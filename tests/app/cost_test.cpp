@@ -45,8 +45,8 @@ TEST(Cost, TheWindowHasTheNumbersOfFit) {
     CostWindow w;
     for (const char* kind : {"mobb", "umobb", "moving"}) {
         w.run("tree.kind", kind);
-        const std::size_t clips = w.session.workspace.scene().clips.size();
-        const auto counted = standard_cost(w.session.workspace.fitted().shared_tree(0), most_counted(clips));
+        const std::size_t most = w.session.workspace.most_counted();
+        const auto counted = standard_cost(w.session.workspace.fitted().shared_tree(0), most);
         ASSERT_TRUE(w.cost()) << kind;
         EXPECT_EQ(w.cost()->queries, counted->queries);
         EXPECT_EQ(w.cost()->tests.by_kind, counted->tests.by_kind);
