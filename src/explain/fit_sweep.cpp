@@ -110,13 +110,6 @@ struct Family {
     std::set<double> leaves{}, scales{};                     ///< that any point has
 };
 
-MeanTests as_sums(const mobb::TestCounts& counts) { return mean_tests(std::span(&counts, 1)); }
-
-MeanTests mean_of(MeanTests sums, std::size_t count) {
-    for (double& sum : sums.by_kind) sum /= static_cast<double>(count);
-    return sums;
-}
-
 /// "141 ns +-1.4"
 std::string time_words(const FitTime& time) {
     return figure(time.ns, 3) + " ns" + (std::isnan(time.error) ? "" : " +-" + figure(time.error, 2));
@@ -311,7 +304,7 @@ class FitSearch {
         constexpr std::size_t kTogether = 1024;
         double sum = 0;
         for (const ClipQuery& asked : queries_) {
-            const MeanTests tests = as_sums(count_tests(asked, trees));
+            const MeanTests tests = as_numbers(count_tests(asked, trees));
             out.tests += tests;
             out.costs.push_back(cost_of(tests));
             sum += out.costs.back();

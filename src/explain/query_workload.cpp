@@ -147,13 +147,21 @@ MeanTests& MeanTests::operator+=(const MeanTests& other) {
     return *this;
 }
 
-MeanTests mean_tests(std::span<const mobb::TestCounts> counts) {
+MeanTests as_numbers(const mobb::TestCounts& counts) {
     MeanTests out;
-    for (const mobb::TestCounts& tests : counts) {
-        for (const mobb::TestKind kind : mobb::kTestKinds) out[kind] += static_cast<double>(tests[kind]);
-    }
-    for (double& mean : out.by_kind) mean /= static_cast<double>(counts.size());
+    for (const mobb::TestKind kind : mobb::kTestKinds) out[kind] = static_cast<double>(counts[kind]);
     return out;
+}
+
+MeanTests mean_of(MeanTests sums, std::size_t queries) {
+    for (double& sum : sums.by_kind) sum /= static_cast<double>(queries);
+    return sums;
+}
+
+MeanTests mean_tests(std::span<const mobb::TestCounts> counts) {
+    MeanTests sums;
+    for (const mobb::TestCounts& tests : counts) sums += as_numbers(tests);
+    return mean_of(sums, counts.size());
 }
 
 double cost_of(const MeanTests& tests) {
@@ -162,7 +170,7 @@ double cost_of(const MeanTests& tests) {
     return sum;
 }
 
-double cost_of(const mobb::TestCounts& tests) { return cost_of(mean_tests(std::span(&tests, 1))); }
+double cost_of(const mobb::TestCounts& tests) { return cost_of(as_numbers(tests)); }
 
 double standard_error(double squares, std::size_t count) {
     const auto numbers = static_cast<double>(count);

@@ -93,6 +93,9 @@ struct MeanTests {
     MeanTests& operator+=(const MeanTests& other);
 };
 
+MeanTests as_numbers(const mobb::TestCounts& counts);
+/// Of sums over so many queries.
+MeanTests mean_of(MeanTests sums, std::size_t queries);
 /// Requires counts.
 MeanTests mean_tests(std::span<const mobb::TestCounts> counts);
 

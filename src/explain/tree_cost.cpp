@@ -15,18 +15,6 @@ namespace {
 
 constexpr std::size_t kOfAThread = 4096;  // placements that one thread counts
 
-MeanTests means_of(const MeanTests& sums, std::size_t queries) {
-    MeanTests out = sums;
-    for (double& number : out.by_kind) number /= static_cast<double>(queries);
-    return out;
-}
-
-MeanTests a_query(const mobb::TestCounts& counts, std::size_t queries) {
-    MeanTests sums;
-    for (const mobb::TestKind kind : mobb::kTestKinds) sums[kind] = static_cast<double>(counts[kind]);
-    return means_of(sums, queries);
-}
-
 /// As a part of the mean; 0 where none were made.
 double error_of(double sum, double squares, std::size_t count) {
     const auto numbers = static_cast<double>(count);
@@ -175,7 +163,7 @@ std::shared_ptr<const TreeCost> counted_on(const std::shared_ptr<const mobb::Tre
     PlacementCount& count = out->count;
     count_on(count, next_end(count, most), PlacementCounter(*tree, out->expected->placements), progress);
     out->queries = count.placements;
-    out->tests = means_of(count.sums, count.placements);
+    out->tests = mean_of(count.sums, count.placements);
     out->levels = divided(out->tests, *out->expected);
     return out;
 }
@@ -189,10 +177,10 @@ std::shared_ptr<const TreeCost> standard_cost(const std::shared_ptr<const mobb::
 
 TreeCost cost_in_scene(const SceneCosts& costs, int clip, const std::shared_ptr<const mobb::Tree>& tree) {
     TreeCost out{.tree = tree, .workload = QueryWorkload::Kind::queries, .queries = costs.tests.size()};
-    out.tests = a_query(costs.kinds, out.queries);
+    out.tests = mean_of(as_numbers(costs.kinds), out.queries);
     mobb::TestCounts in_levels;
     for (const mobb::TestCounts& level : costs.levels) {
-        out.levels.push_back(a_query(level, out.queries));
+        out.levels.push_back(mean_of(as_numbers(level), out.queries));
         for (const mobb::TestKind kind : mobb::kTestKinds) in_levels[kind] += level[kind];
     }
     out.shares.resize(tree->nodes().size());

@@ -45,7 +45,7 @@ TEST(Cost, TheWindowHasTheNumbersOfFit) {
     CostWindow w;
     for (const char* kind : {"mobb", "umobb", "moving"}) {
         w.run("tree.kind", kind);
-        const std::size_t most = w.session.workspace.most_counted();
+        const std::size_t most = w.session.fit_costs.most_counted();
         const auto counted = standard_cost(w.session.workspace.fitted().shared_tree(0), most);
         ASSERT_TRUE(w.cost()) << kind;
         EXPECT_EQ(w.cost()->queries, counted->queries);
@@ -127,7 +127,7 @@ TEST(Cost, BlocksAreNotCounted) {
 TEST(Cost, IsCountedOnBesideTheWindowAndKept) {
     CostWindow w(true);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    const std::size_t most = w.session.workspace.most_counted();
+    const std::size_t most = w.session.fit_costs.most_counted();
     std::size_t fewest = most;
     const auto wait = [&] {
         const auto is_enough = [&] { return w.cost() && w.cost()->count.is_enough(most); };

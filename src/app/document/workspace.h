@@ -25,7 +25,6 @@
 #include <scene/answer.h>
 #include <scene/crowd_run.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <deque>
 #include <filesystem>
@@ -106,7 +105,6 @@ class Workspace {
     int hovered_event = -1;  ///< of the query in view, likewise; -1: none
     QueryLook look;
     Measuring measuring;
-    std::size_t counts_at_most = mobbscope::most_counted(1);  ///< standard placements of a clip
 
     std::optional<Isolation> isolation;   ///< since agents were shown alone
     std::optional<Overview> overview;     ///< since agents came into the foreground
@@ -177,8 +175,6 @@ class Workspace {
     /// not known yet, or why_no_cost says why.
     std::shared_ptr<const TreeCost> cost_of(int clip) const { return cost_of(*document().fitted, clip); }
     std::shared_ptr<const TreeCost> cost_of(const FittedScene& of, int clip) const;
-    /// How many standard placements of a clip are counted at most.
-    std::size_t most_counted() const { return std::min(counts_at_most, mobbscope::most_counted(scene().clips.size())); }
     /// Whom the queries blame for avoidable overlaps; null if nobody has counted that in this scene and fit.
     const BlameInScene* blame() const { return blame(*document().fitted).get(); }
     /// What of a query did not agree with the file; null: nothing did, or the scene is another one by now.

@@ -117,11 +117,11 @@ void workload_choice(Ui& ui, const TreeCost* cost) {
     if (!cost) return;
     ImGui::PushFont(ui.style.caption);
     if (cost->workload == Workload::queries) {
-        words(ui.style.quiet, workload_words(*cost, ui.workspace.most_counted()));
+        words(ui.style.quiet, workload_words(*cost, ui.session.fit_costs.most_counted()));
     } else {
         const StandardPlacements& of = cost->expected->placements;
         words(ui, ui.style.quiet,
-              (count > 0 ? "" : "standard placements, ") + workload_words(*cost, ui.workspace.most_counted()),
+              (count > 0 ? "" : "standard placements, ") + workload_words(*cost, ui.session.fit_costs.most_counted()),
               {static_cast<double>(cost->queries), 100 * cost->count.standard_error(), of.area(), of.offset});
         words(ui.style.quiet, "EV* divides the count among levels and nodes.");
     }

@@ -94,7 +94,6 @@ void Files::replace(Document document, const std::vector<std::filesystem::path>&
     suspended_.reset();
     visited_.clear();
     carry_over(parts_.workspace, JobPurpose::film, next);
-    next.counts_at_most = parts_.workspace.counts_at_most;
     parts_.workspace = std::move(next);
     look_at_files();
     parts_.imports.tell_of_warnings(0);

@@ -11,8 +11,9 @@ namespace mobbscope::app {
 
 namespace {
 
-constexpr std::chrono::milliseconds kAtOnce{15};  // no frame is later by more
-constexpr std::size_t kCountedByItself = 2000;    // queries; more are counted in the active view, by a button
+constexpr std::chrono::milliseconds kAtOnce{15};           // no frame is later by more
+constexpr std::size_t kCountedByItself = 2000;             // queries; more are counted in the active view, by a button
+constexpr std::size_t kUnattended = std::size_t{1} << 17;  // placements: tests and pictures start thousands of sessions
 
 }  // namespace
 
@@ -20,6 +21,11 @@ bool FitCosts::Task::operator==(const Task& other) const {
     if (counts != other.counts) return false;
     if (counts) return in == other.in || ask_the_same(*in, *other.in);
     return in->shared_tree(clip) == other.in->shared_tree(other.clip);
+}
+
+std::size_t FitCosts::most_counted() const {
+    const std::size_t most = mobbscope::most_counted(workspace_.scene().clips.size());
+    return options_.attended ? most : std::min(most, kUnattended);
 }
 
 bool FitCosts::has_failed(const Task& task) const { return std::ranges::find(failed_, task) != failed_.end(); }
@@ -37,8 +43,7 @@ std::optional<FitCosts::Task> FitCosts::next_wanted(int clip) const {
         const Task task{seen.fitted, clip, counts};
         if (has_failed(task)) continue;
         if (!is_known(task)) return task;
-        if (!counts && !more && !workspace_.cost_of(*task.in, clip)->count.is_enough(workspace_.most_counted()))
-            more = task;
+        if (!counts && !more && !workspace_.cost_of(*task.in, clip)->count.is_enough(most_counted())) more = task;
     }
     return more;
 }
@@ -58,7 +63,7 @@ void FitCosts::begin(const Task& task, std::chrono::milliseconds patience) {
     if (!task.counts) so_far = workspace_.cost_of(*task.in, task.clip);
     job_ = std::make_unique<Job>(
         "Costs of a tree",
-        [this, task, so_far, most = workspace_.most_counted()](JobControl& control) -> Job::Finish {
+        [this, task, so_far, most = most_counted()](JobControl& control) -> Job::Finish {
             if (task.counts) {
                 auto costs = std::make_shared<const SceneCosts>(scene_costs(*task.in, progress_of(control)));
                 return [this, of = task.in, costs = std::move(costs)] { workspace_.keep_counted(of, costs); };

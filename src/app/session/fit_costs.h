@@ -8,6 +8,7 @@
 #include <explain/compared_fits.h>
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,8 @@ class FitCosts {
     /// views, a few at first and then until it is enough, and the scene's queries for the views beside the active one,
     /// once they are for that, unless these are many.
     void update(int clip);
+    /// How many standard placements of a clip are counted at most.
+    std::size_t most_counted() const;
     /// For other clips: the first standard placements in the active view, where nothing else is under way.
     void find_when_idle(int clip);
     /// The fits of all views over a clip, as far as their costs are known.

@@ -10,9 +10,6 @@ namespace {
 Desktop no_desktop;
 PictureMaker no_picture_maker;
 
-/// Standard placements of a clip: tests and pictures start thousands of sessions.
-constexpr std::size_t kCountedUnattended = std::size_t{1} << 17;
-
 }  // namespace
 
 bool CommandQueue::run() {
@@ -35,7 +32,6 @@ Session::Session(bool attended, Settings settings_)
       desktop(&no_desktop),
       picture_maker(&no_picture_maker) {
     jobs.after_each = [this] { imports.next(); };
-    if (!attended) workspace.counts_at_most = kCountedUnattended;
 }
 
 double Session::ui_scale() const {
