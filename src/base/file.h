@@ -37,6 +37,9 @@ InputBytes read_input(const std::filesystem::path& file);
 /// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
 std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
+/// Whether standard output goes to a file, of any name: results would replace it.
+bool is_standard_output(const std::filesystem::path& file);
+
 /// Remembers that a file is read. read_file and read_input do by themselves; this is for one that will be.
 /// Throws InputError if standard output goes to it.
 void note_read(const std::filesystem::path& file);

@@ -340,11 +340,16 @@ class UnfinishedFile {
     bool swapped_ = false;
 };
 
+bool is_standard_output(const fs::path& file) {
+    struct stat out {};
+    const bool is_file = ::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(out.st_mode);
+    return is_file && identity(file) == std::pair(out.st_dev, out.st_ino);
+}
+
 void note_read(const fs::path& file) {
     const auto present = identity(file);
     if (!present) return;
-    struct stat out {};
-    if (::fstat(STDOUT_FILENO, &out) == 0 && S_ISREG(out.st_mode) && *present == std::pair(out.st_dev, out.st_ino))
+    if (is_standard_output(file))
         throw InputError(file, "is where standard output goes, which would replace it; redirect that to another file");
     const std::lock_guard lock(read_files().mutex);
     // The present folder may be another later.

@@ -6,7 +6,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -63,10 +62,7 @@ void check_output(const fs::path& output) {
     if (there && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) refuse("it is write-protected");
     // What is no regular file is written in place.
     if (there && !fs::is_regular_file(target, error)) return;
-    struct stat file {
-    }, results{};
-    if (there && ::stat(target.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &results) == 0 &&
-        file.st_dev == results.st_dev && file.st_ino == results.st_ino)
+    if (is_standard_output(target))
         throw InputError(output, "is the file that standard output goes to, with the results; give another one");
     if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
         refuse("its folder " + in_quotes(folder.string()) + " is write-protected");
