@@ -81,10 +81,7 @@ void print_prices(const std::vector<mobb::ClipPtr>& clips) {
     const MeanTests prices = fitted_prices(all, kTestPrices[mobb::TestKind::time]);
     double squares = 0, before = 0;
     for (const Paid& paid : all) {
-        double cost = 0;
-        for (const mobb::TestKind kind : mobb::kTestKinds)
-            cost += paid.tests[kind] > 0 ? paid.tests[kind] * prices[kind] : 0;
-        squares += std::pow(cost / paid.ns - 1, 2);
+        squares += std::pow(cost_of(paid.tests, prices) / paid.ns - 1, 2);
         before += std::pow(cost_of(paid.tests) / paid.ns - 1, 2);
     }
     const auto error = [&](double sum) { return 100 * std::sqrt(sum / static_cast<double>(all.size())); };

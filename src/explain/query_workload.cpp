@@ -164,9 +164,9 @@ MeanTests mean_tests(std::span<const mobb::TestCounts> counts) {
     return mean_of(sums, counts.size());
 }
 
-double cost_of(const MeanTests& tests) {
+double cost_of(const MeanTests& tests, const MeanTests& prices) {
     double sum = 0;
-    for (const mobb::TestKind kind : mobb::kTestKinds) sum += tests[kind] > 0 ? tests[kind] * kTestPrices[kind] : 0;
+    for (const mobb::TestKind kind : mobb::kTestKinds) sum += tests[kind] > 0 ? tests[kind] * prices[kind] : 0;
     return sum;
 }
 

@@ -127,7 +127,7 @@ inline constexpr MeanTests kTestPrices = [] {
 }();
 
 /// ns; NaN where a test has no price.
-double cost_of(const MeanTests& tests);
+double cost_of(const MeanTests& tests, const MeanTests& prices = kTestPrices);
 double cost_of(const mobb::TestCounts& tests);
 
 /// A difference of fewer standard errors may be chance.
