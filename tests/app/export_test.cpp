@@ -396,8 +396,8 @@ TEST_F(FilmExportTest, NothingIsLeftOfACancelledFilm) {
     begin_film();
     EXPECT_FALSE(is_tidy()) << "the scene as it was";
     session.jobs.cancel(0);
-    EXPECT_TRUE(comes([&] { return !Job::any_left() && is_stand_in_gone(); }));
-    EXPECT_TRUE(is_tidy());
+    EXPECT_EQ(session.jobs.count(), 0u);
+    EXPECT_TRUE(comes([&] { return is_stand_in_gone() && is_tidy(); }));
     EXPECT_EQ(slurp(film), "old");
 }
 
@@ -438,8 +438,8 @@ TEST_F(FilmExportTest, QuittingTwiceEndsAFilm) {
 TEST_F(FilmExportTest, OtherWorkIsCancelledBeforeIt) {
     begin_film();
     std::promise<void> go;
-    session.jobs.start("Other work", [&go](JobControl&) -> Job::Finish {
-        go.get_future().wait();
+    session.jobs.start("Other work", [goes = go.get_future().share()](JobControl&) -> Job::Finish {
+        goes.wait();
         return {};
     });
     run("click job.0.cancel");
@@ -448,7 +448,7 @@ TEST_F(FilmExportTest, OtherWorkIsCancelledBeforeIt) {
     go.set_value();
     run("click job.0.cancel");
     EXPECT_EQ(session.jobs.count(), 0u);
-    EXPECT_TRUE(comes([] { return !Job::any_left(); }));
+    EXPECT_TRUE(comes([&] { return is_stand_in_gone() && is_tidy(); }));
 }
 
 TEST_F(FilmExportTest, TheDialogAsksForFilmsInItsOwnWay) {
