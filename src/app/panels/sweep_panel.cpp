@@ -184,7 +184,7 @@ std::vector<std::size_t> best_of_kinds(const SweepResult& result, std::size_t no
 void best_rows(Ui& ui, const SweepResult& result) {
     const std::vector<std::size_t> best = best_of_kinds(result, row_of_now(ui, result).value_or(result.present));
     const int count = static_cast<int>(best.size());
-    heading(ui, "FIT", has_times(result) ? "WARM  COLD ns  MEMORY" : "ESTIMATED ns");
+    heading(ui, "FIT", has_times(result) ? "WARM  COLD ns    kB" : "ESTIMATED ns");
     rows(ui, "sweep rows", count, count, [&](int k) {
         const SweepRow& fit = result.rows[best[static_cast<std::size_t>(k)]];
         std::string remark;
@@ -194,7 +194,7 @@ void best_rows(Ui& ui, const SweepResult& result) {
                 remark += formatted("%5s ", ns_text(fit.time(protocol)).c_str());
                 if (fit.time(protocol)) exact.push_back(fit.time(protocol)->ns);
             }
-            remark += formatted("%8s", bytes_text(fit.bytes).c_str());
+            remark += formatted("%5s", figure(static_cast<double>(fit.bytes) / 1000, 2).c_str());
             exact.push_back(static_cast<double>(fit.bytes));
         } else if (fit.estimate) {
             remark = figure(fit.estimate->cost.mean, 3);
