@@ -273,7 +273,7 @@ TEST(TraceCheck, NodesAndAxesAreCalledAsInSentences) {
     EXPECT_TRUE(words.starts_with(node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) + ", " +
                                   std::string(mobb::name(event.test)) + ": separated "))
         << words;
-    EXPECT_NE(words.find(" axis by " + format_double(event.gap) + " m"), std::string::npos) << words;
+    EXPECT_NE(words.find(" by " + format_double(event.gap) + " m"), std::string::npos) << words;
     EXPECT_EQ(words.find("axis 0"), std::string::npos) << words;
     const mobb::Trace stored = changed(now, apart, [](auto& other) { other.a = 1000; });
     const std::string differs = check_words(check_trace(stored, now), sides, stored, now);
