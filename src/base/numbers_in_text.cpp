@@ -22,9 +22,17 @@ std::size_t end_of_digits(std::string_view text, std::size_t at) {
     return at;
 }
 
-/// Where the number that begins with this digit ends: "12", "0.183", "1.2e+07".
-std::size_t end_of_number(std::string_view text, std::size_t at) {
+/// Where whole digits end that are in groups: "65,536".
+std::size_t end_of_groups(std::string_view text, std::size_t at) {
     std::size_t end = end_of_digits(text, at);
+    if (end - at > 3) return end;
+    while (end < text.size() && text[end] == ',' && end_of_digits(text, end + 1) == end + 4) end += 4;
+    return end;
+}
+
+/// Where the number that begins with this digit ends: "12", "65,536", "0.183", "1.2e+07".
+std::size_t end_of_number(std::string_view text, std::size_t at) {
+    std::size_t end = end_of_groups(text, at);
     if (end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1])) end = end_of_digits(text, end + 1);
     if (end + 1 >= text.size() || text[end] != 'e') return end;
     const std::size_t power = end + (text[end + 1] == '+' || text[end + 1] == '-' ? 2 : 1);
@@ -53,6 +61,12 @@ std::string_view unit_at(std::string_view text) {
 
 }  // namespace
 
+std::string grouped(std::size_t count) {
+    std::string out = std::to_string(count);
+    for (std::size_t at = out.size(); at > 3; at -= 3) out.insert(at - 3, ",");
+    return out;
+}
+
 std::vector<NumberInText> ShownNumbers::in(std::string_view text) {
     std::vector<NumberInText> out;
     for (std::size_t i = 0; i < text.size();) {
@@ -67,7 +81,8 @@ std::vector<NumberInText> ShownNumbers::in(std::string_view text) {
         const bool of_name = end < text.size() && is_letter(text[end]);
         const bool has_sign = i > 0 && (text[i - 1] == '-' || text[i - 1] == '+') &&
                               (i == 1 || (!is_digit(text[i - 2]) && !is_letter(text[i - 2])));
-        const std::string_view number = text.substr(i, end - i);
+        std::string number(text.substr(i, end - i));
+        std::erase(number, ',');
         const std::optional<double> size = of_name ? std::nullopt : parse_double(number);
         if (size) {
             const double value = has_sign && text[i - 1] == '-' ? -*size : *size;

@@ -1,4 +1,4 @@
-/// The numbers in words that people read, found again with all their digits.
+/// The numbers in words that people read: large ones in groups, and all of them found again with all their digits.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace mobbscope {
+
+/// A large count for people: "65,536".
+std::string grouped(std::size_t count);
 
 struct NumberInText {
     std::size_t begin = 0, end = 0;  ///< bytes of the text

@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/numbers_in_text.h>
 #include <cli/columns.h>
 #include <cli/command_line.h>
 #include <cli/compared_fits_table.h>
@@ -94,16 +95,15 @@ void print_csv(const FittedScene& fitted) {
     }
 }
 
-/// "against itself: 1.56 box tests and 0.768 sample pairs counted, 29 ns +- 0.4 % (201728 standard placements, seed 0:
+/// "against itself: 1.56 box tests and 0.768 sample pairs counted, 29 ns +- 0.4 % (201,728 standard placements, seed 0:
 /// shift over 25.6 m^2, start within +-2 s)"
 std::string counted_words(const TreeCost& cost) {
     const StandardPlacements& of = cost.expected->placements;
     return "against itself: " + figure(cost.tests.boxes(), 3) + " box tests and " +
            figure(cost.tests[mobb::TestKind::samples], 3) + " sample pairs counted, " + figure(cost.ns(), 3) +
-           " ns +- " + figure(100 * cost.count.standard_error(), 1) + " % (" +
-           counted(cost.queries, "standard placement", "standard placements") + ", seed " +
-           std::to_string(kCountedSeed) + ": shift over " + figure(of.area(), 3) + " m^2, start within +-" +
-           brief(of.offset) + " s)";
+           " ns +- " + figure(100 * cost.count.standard_error(), 1) + " % (" + grouped(cost.queries) +
+           " standard placements, seed " + std::to_string(kCountedSeed) + ": shift over " + figure(of.area(), 3) +
+           " m^2, start within +-" + brief(of.offset) + " s)";
 }
 
 void print_levels(const mobb::Tree& tree, const TreeCost* counted) {

@@ -43,14 +43,6 @@ struct QueryCommandArguments : FittedArguments {
     std::optional<std::string> compare;  ///< another fit, as text
 };
 
-/// The two of a query as sentences name them.
-std::array<DrawnAgent, 2> sides_of(const FittedScene& fitted, const SceneQuery& query) {
-    const auto side = [&](const PlacedAgent& who) {
-        return DrawnAgent{.placed = fitted.placed(who), .name = who.name, .label = cleaned(who.name), .color = {}};
-    };
-    return {side(query.a), side(query.b)};
-}
-
 /// A test in the words of its picture, behind its number, which `render --step` takes.
 void print_event(std::ostream& out, int step, std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     const std::string number = std::to_string(step);
@@ -150,7 +142,7 @@ void print_answer(std::ostream& out, std::size_t index, const FittedScene& fitte
     }
     if (answer.trace) {
         out << "   Trace";
-        const std::array<DrawnAgent, 2> sides = sides_of(fitted, query);
+        const std::array<DrawnAgent, 2> sides = named_sides(fitted, query);
         std::size_t left_out = 0;
         const auto print = [&](int step) {
             rows.take() ? print_event(out, step, sides, (*answer.trace)[step]) : static_cast<void>(++left_out);

@@ -184,7 +184,8 @@ int check_queries(const FittedScene& fitted, const std::filesystem::path& file, 
             std::cout << index << ": " << (query.expect ? "as expected, " : "")
                       << sentence(query, checked.answer.contact) << '\n';
             if (checked.trace)
-                std::cout << "   " << check_words(*checked.trace, *query.trace, *checked.answer.trace) << ".\n";
+                std::cout << "   " << check_words(*checked.trace, checked.sides, *query.trace, *checked.answer.trace)
+                          << ".\n";
         }
     }
     if (json) {

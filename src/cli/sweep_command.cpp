@@ -1,6 +1,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <base/json_writer.h>
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <cli/columns.h>
 #include <cli/command_line.h>
@@ -254,7 +255,7 @@ std::string workload_words(const Scene& scene, const QueryWorkload& workload, co
         if (result.queries < all) out += std::to_string(result.queries) + " of ";
         return out + counted(all, "query", "queries") + " of the scene";
     }
-    out += counted(result.queries, "standard placement", "standard placements");
+    out += grouped(result.queries) + (result.queries == 1 ? " standard placement" : " standard placements");
     out += clips == 1 ? " of it against itself" : " of each against each and itself";
     return out + " (shift over " + figure(workload.area, 3) + " m^2, start within +-" + figure(workload.offset, 3) +
            " s, seed " + std::to_string(workload.seed) + ")";

@@ -1,3 +1,4 @@
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <base/threads.h>
 #include <explain/fit_sweep.h>
@@ -663,8 +664,9 @@ class FitSearch {
             text += ": " + figure(time(rows.front()).ns, 3) + " to " + figure(time(rows.back()).ns, 3) + " ns";
             text += std::isnan(time(rows.front()).error) ? ", one measurement" : ", +-" + figure(most_error, 2);
         }
-        text += ", over " + std::string(placements_ ? mobbscope::counted(advice.queries, "placement", "placements")
-                                                    : mobbscope::counted(advice.queries, "query", "queries"));
+        text += ", over " +
+                std::string(placements_ ? grouped(advice.queries) + (advice.queries == 1 ? " placement" : " placements")
+                                        : mobbscope::counted(advice.queries, "query", "queries"));
         if (const std::string end = end_of_range(place_of(fits.front())); !end.empty()) text += "; " + end;
         if (!advice.recommended) return text;
         const mobb::TreeKind best = at(fits.front()).fit.tree;

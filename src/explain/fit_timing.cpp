@@ -1,3 +1,4 @@
+#include <base/median.h>
 #include <base/random.h>
 #include <base/thread_clock.h>
 #include <explain/fit_timing.h>
@@ -181,12 +182,6 @@ FitTrees laid_anew(const FitTrees& trees) {
 
 double mean(std::span<const double> values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 /// The square of the standard error of the mean of numbers around `about`.

@@ -1,3 +1,4 @@
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <base/threads.h>
 #include <explain/least_clearance.h>
@@ -210,13 +211,6 @@ class Boundary {
     std::vector<std::size_t> to_right_, upwards_;  ///< by cell: of the crossing to its neighbour
     std::vector<Ends> ends_;
 };
-
-/// "65,536"
-std::string grouped(std::size_t number) {
-    std::string out = std::to_string(number);
-    for (std::size_t at = out.size(); at > 3; at -= 3) out.insert(at - 3, ",");
-    return out;
-}
 
 /// What an axis is from and to so that B can meet A.
 std::pair<double, double> meeting_range(const mobb::PlacedClip& a, const mobb::PlacedClip& b, MapAxis axis) {

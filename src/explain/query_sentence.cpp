@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace mobbscope {
@@ -70,6 +71,13 @@ std::string overlap_words(const mobb::PlacedClip& a, const mobb::PlacedClip& b, 
     return (a.is_linear() || b.is_linear() ? "up to " : "") + with_unit(most_overlap(a, b, i, j), "m");
 }
 
+std::array<DrawnAgent, 2> named_sides(const FittedScene& fitted, const SceneQuery& query) {
+    const auto side = [&](const PlacedAgent& who) {
+        return DrawnAgent{.placed = fitted.placed(who), .name = who.name, .label = cleaned(who.name), .color = {}};
+    };
+    return {side(query.a), side(query.b)};
+}
+
 std::string node_name(const DrawnAgent& agent, int node) {
     const mobb::Tree& tree = agent.placed.tree();
     const int level = agent.placed.tree().level(node);
@@ -91,13 +99,21 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
     return std::string(shape.meets) + ", " + what_next(sides, event);
 }
 
-std::string plain_outcome(const mobb::Trace::Event& event) {
+std::string plain_sentence(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event) {
     // In the order of the outcomes.
     constexpr std::array kWords{"apart in time", "separated", "overlap", "hit", "no hit"};
     static_assert(kWords.size() == static_cast<std::size_t>(mobb::Outcome::no_hit) + 1);
-    std::string out = kWords[static_cast<std::size_t>(event.outcome)];
-    if (event.outcome == mobb::Outcome::separated)
-        out += " along axis " + std::to_string(event.axis) + " by " + format_double(event.gap) + " m";
+    const auto has = [](const DrawnAgent& side, int node) { return node < std::ssize(side.placed.tree().nodes()); };
+    const auto named = [&](const DrawnAgent& side, int node) {
+        return has(side, node) ? node_name(side, node) : side.label + " node " + std::to_string(node);
+    };
+    std::string out = named(sides[0], event.a) + " against " + named(sides[1], event.b) + ", " +
+                      std::string(mobb::name(event.test)) + ": " + kWords[static_cast<std::size_t>(event.outcome)];
+    if (event.outcome == mobb::Outcome::separated) {
+        const bool both = has(sides[0], event.a) && has(sides[1], event.b);
+        out += ' ' + (both ? separating_axis_words(sides, event) : "along axis " + std::to_string(event.axis)) +
+               " by " + format_double(event.gap) + " m";
+    }
     if (event.test != mobb::TestKind::samples) return out;
     out += " (" + counted(event.pairs.size(), "pair", "pairs") + " measured";
     if (event.outcome == mobb::Outcome::hit && !event.pairs.empty()) {

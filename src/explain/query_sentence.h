@@ -6,12 +6,16 @@
 #include <mobb/trace.h>
 #include <scene/drawn_agent.h>
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace mobbscope {
+
+/// The two of a query, as sentences call them. They refer to the fitted scene.
+std::array<DrawnAgent, 2> named_sides(const FittedScene& fitted, const SceneQuery& query);
 
 /// A node as "<name> <level>.<place in the level>", counted from 0: "A 2.1".
 std::string node_name(const DrawnAgent& agent, int node);
@@ -22,9 +26,11 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 /// The same in few words, for lists: "along B's long axis 0.183 m", "overlap", "apart in time".
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
-/// The same without the trees, with all digits, for comparing traces: "separated along axis 1 by 0.183 m", "hit (3
-/// pairs measured, samples 4 and 5 at 0.3 m)".
-std::string plain_outcome(const mobb::Trace::Event& event);
+/// A test with all digits, for comparing traces: "A 2.1 against B 2.3, obb2d: separated along B's long axis by 0.1834
+/// m",
+/// "..., samples: hit (3 pairs measured, samples 4 and 5 at 0.3 m)". The event may be of another tree: a node that the
+/// side's tree lacks is "A node 57".
+std::string plain_sentence(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
 /// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"
 /// `a`, `b`: what the nodes are called.

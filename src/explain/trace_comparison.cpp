@@ -54,16 +54,15 @@ std::string pair_words(std::span<const mobb::MeasuredPair> pairs, std::size_t in
            format_double(pair.distance) + " m";
 }
 
-/// One side of a difference, with all digits.
-std::string side_words(const mobb::Trace& trace, const TraceDifference& difference) {
+/// The event of one of the traces, with all digits.
+std::string event_words(std::span<const DrawnAgent> sides, const mobb::Trace& trace,
+                        const TraceDifference& difference) {
     const mobb::Trace::Event event = trace[difference.step];
     std::string out;
     if (differs_in(difference, "parent") || differs_in(difference, "depth")) {
         out = "called by step " + std::to_string(event.parent) + " at depth " + std::to_string(event.depth) + ", ";
     }
-    out += std::to_string(event.a) + " x " + std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) +
-           ": " + plain_outcome(event);
-    return out;
+    return out + plain_sentence(sides, event);
 }
 
 /// The first that differs of two lists of pairs, of either side: "pair 3: samples 4 and 5 at 0.3 m".
@@ -115,7 +114,8 @@ TraceCheck check_trace(const mobb::Trace& stored, const mobb::Trace& present) {
     return out;
 }
 
-std::string check_words(const TraceCheck& check, const mobb::Trace& stored, const mobb::Trace& present) {
+std::string check_words(const TraceCheck& check, std::span<const DrawnAgent> sides, const mobb::Trace& stored,
+                        const mobb::Trace& present) {
     if (!check.difference) {
         std::string out = counted(check.compared, "event", "events") + (check.compared == 1 ? " agrees" : " agree") +
                           " with the stored trace";
@@ -129,10 +129,10 @@ std::string check_words(const TraceCheck& check, const mobb::Trace& stored, cons
         const bool is_short = difference.step >= stored.size();
         out += is_short ? ": the stored trace ends there, now it goes on with "
                         : ": now the trace ends there, the stored one goes on with ";
-        return out + side_words(is_short ? present : stored, difference) + "; " + counts_words(check);
+        return out + event_words(sides, is_short ? present : stored, difference) + "; " + counts_words(check);
     }
-    out += " in " + listed(difference.members) + ": stored " + side_words(stored, difference) + "; now " +
-           side_words(present, difference);
+    out += " in " + listed(difference.members) + ": stored " + event_words(sides, stored, difference) + "; now " +
+           event_words(sides, present, difference);
     if (differs_in(difference, "pairs")) {
         const auto [of_stored, of_present] = first_pairs(stored[difference.step], present[difference.step]);
         out += "; stored " + of_stored + "; now " + of_present;
@@ -140,13 +140,14 @@ std::string check_words(const TraceCheck& check, const mobb::Trace& stored, cons
     return out;
 }
 
-SteppedTraces traces_at(const mobb::Trace& stored, const mobb::Trace& present, int step) {
+SteppedTraces traces_at(std::span<const DrawnAgent> sides, const mobb::Trace& stored, const mobb::Trace& present,
+                        int step) {
     TraceDifference at{step, {}};
     double rounding = 0;
     const bool both = step < stored.size() && step < present.size();
     if (both) at.members = members_that_differ(stored[step], present[step], rounding);
     const auto in_words = [&](const mobb::Trace& trace) {
-        return step < trace.size() ? side_words(trace, at) : std::string("the trace has ended");
+        return step < trace.size() ? event_words(sides, trace, at) : std::string("the trace has ended");
     };
     SteppedTraces out{in_words(stored), in_words(present), both && at.members.empty()};
     if (differs_in(at, "pairs")) {
@@ -175,7 +176,7 @@ std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const 
 
 std::optional<std::string> QueryCheck::complaint() const {
     if (!trace || (!disagrees && trace->agrees())) return disagrees;
-    const std::string traces = check_words(*trace, *query.trace, *answer.trace);
+    const std::string traces = check_words(*trace, sides, *query.trace, *answer.trace);
     if (!disagrees) return traces;
     std::string out = *disagrees;
     if (out.ends_with('.')) out.pop_back();
@@ -183,7 +184,7 @@ std::optional<std::string> QueryCheck::complaint() const {
 }
 
 QueryCheck check_query(const FittedScene& fitted, const SceneQuery& query) {
-    QueryCheck out{query, answer(fitted, query, {.trace = query.trace != nullptr}), {}, {}};
+    QueryCheck out{query, answer(fitted, query, {.trace = query.trace != nullptr}), named_sides(fitted, query), {}, {}};
     out.disagrees = disagreement(query, out.answer);
     if (!out.disagrees) out.disagrees = yes_no_disagreement(fitted, query, out.answer.contact.has_value());
     if (query.trace) out.trace = check_trace(*query.trace, *out.answer.trace);

@@ -4,6 +4,7 @@
 #include <explain/certificate.h>
 #include <mobb/trace.h>
 #include <scene/answer.h>
+#include <scene/drawn_agent.h>
 #include <scene/fitted_scene.h>
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,15 +43,17 @@ inline constexpr double kTraceAgreement = 1e-9;
 
 TraceCheck check_trace(const mobb::Trace& stored, const mobb::Trace& present);
 
-/// "54 events agree with the stored trace", or the first difference with both sides.
-std::string check_words(const TraceCheck& check, const mobb::Trace& stored, const mobb::Trace& present);
+/// "54 events agree with the stored trace", or the first difference with both traces' events. `sides`: of the query.
+std::string check_words(const TraceCheck& check, std::span<const DrawnAgent> sides, const mobb::Trace& stored,
+                        const mobb::Trace& present);
 
 /// A step of a stored trace beside the same of the present one, each in words.
 struct SteppedTraces {
-    std::string stored, present;  ///< "12 x 9 obb2d: separated along axis 1 by 0.183 m"
+    std::string stored, present;  ///< see plain_sentence
     bool agree = true;            ///< within kTraceAgreement
 };
-SteppedTraces traces_at(const mobb::Trace& stored, const mobb::Trace& present, int step);
+SteppedTraces traces_at(std::span<const DrawnAgent> sides, const mobb::Trace& stored, const mobb::Trace& present,
+                        int step);
 
 /// Of blocks: what is wrong if the queries that crowds ask, which only say yes or no, disagree with the one that finds
 /// the contact. Of other trees nothing.
@@ -59,6 +63,7 @@ std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const 
 struct QueryCheck {
     SceneQuery query;
     Answer answer;                         ///< with a trace where one is stored
+    std::array<DrawnAgent, 2> sides;       ///< they refer to the fitted scene
     std::optional<std::string> disagrees;  ///< with the expected answer
     std::optional<TraceCheck> trace;       ///< none: none is stored
 

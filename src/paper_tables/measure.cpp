@@ -212,11 +212,6 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return quantile(values, 0.5);
-}
-
 /// Linux says it in /proc/cpuinfo; elsewhere it stays unknown.
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
@@ -273,7 +268,10 @@ TableRows measure(const Workload& workload, const std::vector<Method>& methods, 
     for (std::size_t m = 0; m < methods.size(); ++m) {
         tell("counting", static_cast<int>(m), static_cast<int>(methods.size()));
         table.rows.push_back(count(fitted[m], workload, truth));
-        if (methods[m].options) table.rows[m].trees.build_ns = median(build_means[m]);
+        if (methods[m].options) {
+            std::ranges::sort(build_means[m]);
+            table.rows[m].trees.build_ns = quantile(build_means[m], 0.5);
+        }
     }
 
     std::vector<std::vector<double>> means(methods.size());  // by method and round

@@ -4,6 +4,7 @@
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
+#include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
 #include <explain/tree_json.h>
 #include <mobb/query.h>
@@ -286,7 +287,7 @@ std::string words_of_panel(const HeldAnswers::Fits& fits, std::size_t panel) {
 
 /// Calls with each query that a golden has too, and tells of those that only one side has.
 void each_pair(const HeldAnswers::Fits& fits, GoldenQueries golden, RankedLines& lines,
-               const std::function<void(const std::string&, const Query&, const GoldenQuery&)>& compare) {
+               const std::function<void(const Fit&, const Query&, const GoldenQuery&)>& compare) {
     for (const Fit& fit : fits.fits) {
         for (const Query& one : fit.queries) {
             const std::string query = query_words(fit, one);
@@ -298,7 +299,7 @@ void each_pair(const HeldAnswers::Fits& fits, GoldenQueries golden, RankedLines&
             const GoldenQuery& before = stored.mapped();
             if (one.query.a.name != before.a || one.query.b.name != before.b)
                 lines.add(RankedLines::whole, query + "the golden has " + pair_words(before.a, before.b));
-            compare(query, one, before);
+            compare(fit, one, before);
         }
     }
     for (const auto& [key, before] : golden) {
@@ -310,41 +311,42 @@ void each_pair(const HeldAnswers::Fits& fits, GoldenQueries golden, RankedLines&
 
 Differences answers_that_differ(const HeldAnswers::Fits& fits, GoldenQueries golden) {
     RankedLines lines;
-    each_pair(fits, std::move(golden), lines,
-              [&](const std::string& query, const Query& one, const GoldenQuery& before) {
-                  const std::optional<mobb::Contact>& now = one.answer.contact;
-                  if (now && !before.contact) {
-                      return lines.add(RankedLines::whole, query + "they collide at " + format_double(now->time) +
-                                                               " s; in the golden they never do");
-                  }
-                  if (!now && before.contact) {
-                      return lines.add(RankedLines::whole, query + "no collision; the golden has one at " +
-                                                               format_double(before.contact->time) + " s");
-                  }
-                  const std::string contact = now ? contact_words(*now, *before.contact) : "";
-                  if (!contact.empty()) lines.add(RankedLines::contact, query + contact);
-                  double off = 0;
-                  const std::string tests = tests_words(one.answer.tests, before.tests, off);
-                  if (!tests.empty()) lines.add(RankedLines::tests, query + tests, off);
-              });
+    each_pair(fits, std::move(golden), lines, [&](const Fit& fit, const Query& one, const GoldenQuery& before) {
+        const std::string query = query_words(fit, one);
+        const std::optional<mobb::Contact>& now = one.answer.contact;
+        if (now && !before.contact) {
+            return lines.add(RankedLines::whole,
+                             query + "they collide at " + format_double(now->time) + " s; in the golden they never do");
+        }
+        if (!now && before.contact) {
+            return lines.add(RankedLines::whole, query + "no collision; the golden has one at " +
+                                                     format_double(before.contact->time) + " s");
+        }
+        const std::string contact = now ? contact_words(*now, *before.contact) : "";
+        if (!contact.empty()) lines.add(RankedLines::contact, query + contact);
+        double off = 0;
+        const std::string tests = tests_words(one.answer.tests, before.tests, off);
+        if (!tests.empty()) lines.add(RankedLines::tests, query + tests, off);
+    });
     return lines.sorted();
 }
 
 Differences traces_that_differ(const HeldAnswers::Fits& fits, GoldenQueries golden) {
     RankedLines lines;
-    each_pair(fits, std::move(golden), lines,
-              [&](const std::string& query, const Query& one, const GoldenQuery& before) {
-                  const TraceCheck check = check_trace(before.trace, *one.answer.trace);
-                  if (check.agrees() && before.trace.size() == one.answer.trace->size()) return;
-                  if (check.agrees()) {
-                      // Both are recorded with one limit.
-                      return lines.add(RankedLines::tests,
-                                       query + "the golden has only " + std::to_string(before.trace.size()) + " of " +
-                                           counted(check.stored_events, "event", "events") + ", now there are " +
-                                           std::to_string(one.answer.trace->size()) + "; it was cut");
-                  }
-                  lines.add(RankedLines::tests, query + check_words(check, before.trace, *one.answer.trace));
-              });
+    each_pair(fits, std::move(golden), lines, [&](const Fit& fit, const Query& one, const GoldenQuery& before) {
+        const std::string query = query_words(fit, one);
+        const TraceCheck check = check_trace(before.trace, *one.answer.trace);
+        if (check.agrees() && before.trace.size() == one.answer.trace->size()) return;
+        if (check.agrees()) {
+            // Both are recorded with one limit.
+            return lines.add(RankedLines::tests, query + "the golden has only " + std::to_string(before.trace.size()) +
+                                                     " of " + counted(check.stored_events, "event", "events") +
+                                                     ", now there are " + std::to_string(one.answer.trace->size()) +
+                                                     "; it was cut");
+        }
+        lines.add(RankedLines::tests,
+                  query + check_words(check, named_sides(*fit.fitted, one.query), before.trace, *one.answer.trace));
+    });
     return lines.sorted();
 }
 

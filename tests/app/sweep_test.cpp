@@ -60,8 +60,11 @@ TEST(Sweep, AppliesWhatItRecommendsAsOneEdit) {
     const mobb::FitOptions best = w.result().rows[*recommended].fit;
     EXPECT_EQ(best.tree, mobb::TreeKind::blocks);
     ASSERT_TRUE(w.has("sweep.apply"));
+    const Rect there = w.rect("sweep.apply");
     w.click("sweep.apply");
     EXPECT_EQ(w.fit(), best);
+    EXPECT_EQ(w.rect("sweep.apply").min, there.min) << "it stays under the mouse";
+    EXPECT_LT(there.max.y, w.rect("sweep.why").min.y) << "no words that change stand above it";
     EXPECT_EQ(w.edits(), 1u);
     EXPECT_TRUE(w.session.sweeps.is_of_scene()) << "another fit asks the same";
     EXPECT_FALSE(find_command("tree.sweep_apply")->enabled(w.session));

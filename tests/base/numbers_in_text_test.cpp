@@ -26,6 +26,16 @@ TEST(NumbersInText, AreFoundInSentences) {
     EXPECT_EQ(values("1.2e+07 ns and 3e-05"), (Values{1.2e7, 3e-5}));
     EXPECT_EQ(values("steps 3-5"), (Values{3, 5})) << "a dash is not a sign";
     EXPECT_EQ(values(""), Values{});
+    EXPECT_EQ(values("131,072 of 5,321,004 placements"), (Values{131072, 5321004})) << "large counts are in groups";
+    EXPECT_EQ(values("3,4 and 1234,567 and 1,2345"), (Values{3, 4, 1234, 567, 1, 2345})) << "these are not";
+}
+
+TEST(NumbersInText, LargeCountsAreInGroups) {
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(999), "999");
+    EXPECT_EQ(grouped(1000), "1,000");
+    EXPECT_EQ(grouped(131072), "131,072");
+    EXPECT_EQ(grouped(5321004), "5,321,004");
 }
 
 TEST(NumbersInText, DigitsOfNamesAreNone) {

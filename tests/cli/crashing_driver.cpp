@@ -1,11 +1,28 @@
 // Stands for libOSMesa.so.8 and libEGL.so.1: a driver that MOBBSCOPE_TEST_DRIVER says the fault of.
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
+
+/// The first process begins again with the real driver; the others have none. `taken`: the file that the first makes.
+void draw_in_one_process(const std::string& taken) {
+    if (::open(taken.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600) < 0) return;
+    ::unsetenv("LD_LIBRARY_PATH");
+    std::ifstream file("/proc/self/cmdline");
+    std::vector<std::string> arguments;
+    for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    ::execv("/proc/self/exe", pointers.data());
+}
 
 void* fail() {
     const char* fault = std::getenv("MOBBSCOPE_TEST_DRIVER");
@@ -13,6 +30,10 @@ void* fail() {
     if (what == "nowhere") {
         void (*volatile nowhere)() = reinterpret_cast<void (*)()>(64);
         nowhere();
+    }
+    if (const std::string_view one = "in one process "; what.starts_with(one)) {
+        draw_in_one_process(std::string(what.substr(one.size())));
+        return nullptr;
     }
     if (what == "aborts") std::abort();
     if (what == "hangs") {

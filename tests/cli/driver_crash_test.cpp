@@ -3,6 +3,7 @@
 #include <render/gl/driver_watch.h>
 #include <support/temp_folder.h>
 
+#include "cases/case_folder.h"
 #include "cli/render_runs.h"
 #include "render/backends.h"
 
@@ -91,6 +92,35 @@ TEST_F(DriverCrash, TheNextOneDraws) {
     EXPECT_NE(result.err.find("egl draws"), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("crashed (Segmentation fault in libOSMesa.so.8)"), std::string::npos) << result.err;
     EXPECT_TRUE(std::filesystem::exists(picture()));
+}
+
+/// Of two processes that draw one has a driver: so one of two pictures is judged.
+TEST_F(DriverCrash, TestsOfWhichSomeAreNotDrawnEndWith4) {
+    if (!has_or_skip(Backend::osmesa)) return;
+    const CaseFolder cases;
+    cases.add("one");
+    cases.add("two");
+    const std::string output = (folder_.path() / "out").string();
+    const std::vector<std::string> test{"test", cases.path().string(), "--backend", "osmesa", "--jobs", "2", "--output",
+                                        output};
+    ASSERT_EQ(run(with(test, {"--update", "all"}), [] {}).status, 0);
+    const auto in_one_process = [&] {
+        const auto drivers = with_drivers({"libOSMesa.so.8"}, "in one process " + (folder_.path() / "taken").string());
+        std::filesystem::remove(folder_.path() / "taken");
+        return [=] {
+            drivers();
+            ::setenv("MOBBSCOPE_NO_WATCH", "1", 1);
+        };
+    };
+    const Result some = run(test, in_one_process());
+    EXPECT_EQ(some.status, 4) << some.out << some.err;
+    EXPECT_TRUE(is_one_line(some.err)) << some.err;
+    EXPECT_NE(some.out.find("1 passed"), std::string::npos) << some.out;
+    EXPECT_NE(some.out.find("1 skipped"), std::string::npos) << some.out;
+    EXPECT_EQ(run_program(test, "/dev/full", "/dev/null", in_one_process()).status, 4)
+        << "before 3, of what is not written";
+    for (const char* golden : {"one.png", "two.png"}) std::filesystem::remove(cases.path() / golden);
+    EXPECT_EQ(run(test, in_one_process()).status, 1) << "before 4";
 }
 
 TEST_F(DriverCrash, WhatMesaReadsIsNamed) {

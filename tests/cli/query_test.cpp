@@ -417,6 +417,9 @@ TEST(QueryCheck, EveryChangeOfATraceIsFound) {
         EXPECT_TRUE(is_one_line(run.err)) << run.err;
         EXPECT_NE(run.err.find("query 0: "), std::string::npos) << run.err;
         EXPECT_NE(run.err.find(what), std::string::npos) << run.err;
+        if (std::string_view(what).starts_with(" in ")) {
+            EXPECT_NE(run.err.find(" against "), std::string::npos) << "nodes are named as elsewhere: " << run.err;
+        }
         EXPECT_NE(run.out.find("1 query disagrees."), std::string::npos) << run.out;
         const Result as_json = run_program({"query", file, "--check", "--json"});
         EXPECT_EQ(as_json.status, 1);

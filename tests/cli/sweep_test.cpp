@@ -184,7 +184,7 @@ TEST(Sweep, LevelsOfThePresentFitAreKept) {
 TEST(Sweep, TextHasTwoColumnsOfTimeAndSaysWhichToTake) {
     const Result run = sweep_of(kClips, {"--queries", "1000"});
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_TRUE(run.out.starts_with("7 clips, 1000 standard placements of each against each and itself (shift over "))
+    EXPECT_TRUE(run.out.starts_with("7 clips, 1,000 standard placements of each against each and itself (shift over "))
         << run.out;
     EXPECT_NE(run.out.find(", seed 0)"), std::string::npos);
     std::istringstream lines(run.out);
@@ -197,7 +197,7 @@ TEST(Sweep, TextHasTwoColumnsOfTimeAndSaysWhichToTake) {
     EXPECT_NE(run.out.find("MOBB, leaf 10 (now)"), std::string::npos);
     EXPECT_NE(run.out.find("\nwarm: "), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("\ncold: "), std::string::npos) << run.out;
-    EXPECT_NE(run.out.find(", over 1000 placements"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(", over 1,000 placements"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("blocks"), std::string::npos) << run.out;
     EXPECT_LT(std::ranges::count(run.out, '\n'), 40);
 }

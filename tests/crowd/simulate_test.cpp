@@ -198,6 +198,22 @@ TEST_F(Simulate, AFullFloorIsRefused) {
     EXPECT_NE(input_error([&] { simulate(moves, options); }).find("no room for agent 1 of 2000"), std::string::npos);
 }
 
+TEST_F(Simulate, SecondsThatDoublesCannotHoldAreRefused) {
+    Scene scene = fitted.scene();
+    const mobb::Clip& long_enough = *scene.clips[0].clip;
+    scene.clips[0].clip = std::make_shared<const mobb::Clip>(
+        2.1e-9, std::vector<mobb::Disk>(long_enough.samples().begin(), long_enough.samples().end()));
+    const FittedScene fine(scene, {});
+    const MoveSet of_fine(fine);
+    SimulateOptions options = small_crowd(1);
+    options.seconds = 1e6;
+    const std::string said = input_error([&] { simulate(of_fine, options); });
+    EXPECT_NE(said.find("move 0 of the graph has a dt of 2.1e-09 s: doubles tell its samples' times apart within "
+                        "225180 s; simulate fewer than 1e+06 s, or give a larger dt"),
+              std::string::npos)
+        << said;
+}
+
 TEST_F(Simulate, OptionsOutOfRangeAreRefused) {
     const auto refused = [&](const auto& change) {
         SimulateOptions options;

@@ -406,7 +406,7 @@ TEST(FitSweep, TimeDecidesAndIsNotMixedWithTheEstimate) {
         EXPECT_NEAR(estimate_of(row), mean_cost(clips, standard_workload(clips, 2000, 1), row.fit), 1e-9);
     }
     EXPECT_TRUE(result.of(Protocol::warm).why.starts_with("MOBB, leaf 1: ")) << result.of(Protocol::warm).why;
-    EXPECT_NE(result.of(Protocol::warm).why.find(" % less than MOBB, leaf 80 (now), over 2000 placements"),
+    EXPECT_NE(result.of(Protocol::warm).why.find(" % less than MOBB, leaf 80 (now), over 2,000 placements"),
               std::string::npos)
         << result.of(Protocol::warm).why;
     EXPECT_TRUE(result.of(Protocol::cold).why.starts_with("MOBB, 1 level: ")) << result.of(Protocol::cold).why;

@@ -1,4 +1,5 @@
 // Two records of one query: event by event, and by time.
+#include <explain/query_sentence.h>
 #include <explain/trace_comparison.h>
 #include <scene/fit_text.h>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -108,7 +110,25 @@ TEST(TraversalComparison, AStepHasItsMatchInTheOtherTraversal) {
     EXPECT_GT(went_on, 10);
 }
 
+/// A query with separated boxes and measured samples.
+ProvenQuery telling_query() {
+    mobb::test::Random random(5);
+    while (true) {
+        ProvenQuery query = random_proven_query(random);
+        const mobb::TestCounts& tests = query.recorded.tests;
+        if (query.recorded.trace.size() > 10 && tests[mobb::TestKind::samples] > 3 && tests.boxes() > 3 &&
+            query.recorded.trace[query.recorded.trace.size() - 1].test != mobb::TestKind::time)
+            return query;
+    }
+}
+
+std::array<DrawnAgent, 2> sides_of(const ProvenQuery& query) {
+    return named_sides(query.fitted, query.fitted.queries()[0]);
+}
+
 TEST(TraceComparison, TwoTracesAreSteppedSideBySide) {
+    const ProvenQuery query = telling_query();
+    const std::array<DrawnAgent, 2> sides = sides_of(query);
     mobb::Trace stored, present;
     const std::vector<mobb::MeasuredPair> pairs{{4, 5, 0.75}}, others{{4, 5, 0.5}};
     mobb::Trace::Event event{.test = mobb::TestKind::samples, .outcome = mobb::Outcome::no_hit, .pairs = pairs};
@@ -120,12 +140,12 @@ TEST(TraceComparison, TwoTracesAreSteppedSideBySide) {
     event.pairs = others;
     present.push(event);
     stored.push(event);
-    EXPECT_TRUE(traces_at(stored, present, 0).agree);
-    const SteppedTraces differ = traces_at(stored, present, 1);
+    EXPECT_TRUE(traces_at(sides, stored, present, 0).agree);
+    const SteppedTraces differ = traces_at(sides, stored, present, 1);
     EXPECT_FALSE(differ.agree);
     EXPECT_NE(differ.stored.find("pair 0: samples 4 and 5 at 0.75 m"), std::string::npos) << differ.stored;
     EXPECT_NE(differ.present.find("pair 0: samples 4 and 5 at 0.5 m"), std::string::npos) << differ.present;
-    const SteppedTraces ended = traces_at(stored, present, 2);
+    const SteppedTraces ended = traces_at(sides, stored, present, 2);
     EXPECT_FALSE(ended.agree);
     EXPECT_EQ(ended.present, "the trace has ended");
 }
@@ -165,18 +185,6 @@ mobb::Trace changed(const mobb::Trace& trace, int step, const std::function<void
     return out;
 }
 
-/// A query with separated boxes and measured samples.
-ProvenQuery telling_query() {
-    mobb::test::Random random(5);
-    while (true) {
-        ProvenQuery query = random_proven_query(random);
-        const mobb::TestCounts& tests = query.recorded.tests;
-        if (query.recorded.trace.size() > 10 && tests[mobb::TestKind::samples] > 3 && tests.boxes() > 3 &&
-            query.recorded.trace[query.recorded.trace.size() - 1].test != mobb::TestKind::time)
-            return query;
-    }
-}
-
 int step_with(const mobb::Trace& trace, const std::function<bool(const mobb::Trace::Event&)>& is) {
     for (int step = 0; step < trace.size(); ++step) {
         if (is(trace[step])) return step;
@@ -187,6 +195,7 @@ int step_with(const mobb::Trace& trace, const std::function<bool(const mobb::Tra
 
 TEST(TraceCheck, FindsTheFirstDifference) {
     const ProvenQuery query = telling_query();
+    const std::array<DrawnAgent, 2> sides = sides_of(query);
     const mobb::Trace& now = query.recorded.trace;
     const int apart = step_with(now, [](const auto& event) { return event.outcome == mobb::Outcome::separated; });
     const int measured = step_with(now, [](const auto& event) { return event.pairs.size() > 1; });
@@ -197,7 +206,7 @@ TEST(TraceCheck, FindsTheFirstDifference) {
         EXPECT_EQ(check.difference->step, step);
         EXPECT_EQ(check.compared, step);
         EXPECT_EQ(check.difference->members, (std::vector<std::string_view>{member}));
-        const std::string words = check_words(check, stored, now);
+        const std::string words = check_words(check, sides, stored, now);
         EXPECT_EQ(words.find("the traces differ at step " + std::to_string(step) + " in " + std::string(member) + ":"),
                   0u)
             << words;
@@ -216,6 +225,7 @@ TEST(TraceCheck, FindsTheFirstDifference) {
 
 TEST(TraceCheck, ATraceThatIsCutShortOrTooLongDiffersWhereItEnds) {
     const ProvenQuery query = telling_query();
+    const std::array<DrawnAgent, 2> sides = sides_of(query);
     const mobb::Trace& now = query.recorded.trace;
     const int cut = now.size() - 4;
     mobb::Trace stored = changed(now, -1, {}, cut);
@@ -223,17 +233,17 @@ TEST(TraceCheck, ATraceThatIsCutShortOrTooLongDiffersWhereItEnds) {
     ASSERT_TRUE(check.difference);
     EXPECT_EQ(check.difference->step, cut);
     EXPECT_TRUE(check.difference->members.empty());
-    EXPECT_NE(check_words(check, stored, now).find("the stored trace ends there, now it goes on with"),
+    EXPECT_NE(check_words(check, sides, stored, now).find("the stored trace ends there, now it goes on with"),
               std::string::npos);
     check = check_trace(now, stored);
-    EXPECT_NE(check_words(check, now, stored).find("now the trace ends there, the stored one goes on with"),
+    EXPECT_NE(check_words(check, sides, now, stored).find("now the trace ends there, the stored one goes on with"),
               std::string::npos);
     // Where recording stopped, what is missing says nothing; how many there were does.
     stored.leave_out(4);
     check = check_trace(stored, now);
     EXPECT_TRUE(check.agrees());
     EXPECT_EQ(check.compared, cut);
-    EXPECT_NE(check_words(check, stored, now).find("of the stored trace recording stopped at event"),
+    EXPECT_NE(check_words(check, sides, stored, now).find("of the stored trace recording stopped at event"),
               std::string::npos);
     stored.leave_out(1);
     check = check_trace(stored, now);
@@ -243,13 +253,34 @@ TEST(TraceCheck, ATraceThatIsCutShortOrTooLongDiffersWhereItEnds) {
 
 TEST(TraceCheck, RoundingIsToldButAgrees) {
     const ProvenQuery query = telling_query();
+    const std::array<DrawnAgent, 2> sides = sides_of(query);
     const mobb::Trace& now = query.recorded.trace;
     const int apart = step_with(now, [](const auto& event) { return event.outcome == mobb::Outcome::separated; });
     const mobb::Trace stored = changed(now, apart, [](auto& event) { event.gap += 1e-12; });
     const TraceCheck check = check_trace(stored, now);
     EXPECT_TRUE(check.agrees());
     EXPECT_GT(check.rounding, 0);
-    EXPECT_NE(check_words(check, stored, now).find("gaps and distances to 1e-12 m"), std::string::npos);
+    EXPECT_NE(check_words(check, sides, stored, now).find("gaps and distances to 1e-12 m"), std::string::npos);
+}
+
+TEST(TraceCheck, NodesAndAxesAreCalledAsInSentences) {
+    const ProvenQuery query = telling_query();
+    const std::array<DrawnAgent, 2> sides = sides_of(query);
+    const mobb::Trace& now = query.recorded.trace;
+    const int apart = step_with(now, [](const auto& event) { return event.outcome == mobb::Outcome::separated; });
+    const mobb::Trace::Event event = now[apart];
+    const std::string words = plain_sentence(sides, event);
+    EXPECT_TRUE(words.starts_with(node_name(sides[0], event.a) + " against " + node_name(sides[1], event.b) + ", " +
+                                  std::string(mobb::name(event.test)) + ": separated "))
+        << words;
+    EXPECT_NE(words.find(" by " + format_double(event.gap) + " m"), std::string::npos) << words;
+    EXPECT_EQ(words.find("axis 0"), std::string::npos) << words;
+    const mobb::Trace stored = changed(now, apart, [](auto& other) { other.a = 1000; });
+    const std::string differs = check_words(check_trace(stored, now), sides, stored, now);
+    EXPECT_NE(differs.find("stored " + sides[0].label + " node 1000 against " + node_name(sides[1], event.b)),
+              std::string::npos)
+        << differs;
+    EXPECT_NE(differs.find("; now " + words), std::string::npos) << differs;
 }
 
 TEST(FitText, SetsWhatItSays) {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -153,14 +154,15 @@ void moment_words(Ui& ui, const QueryFindings& findings, const FitComparison& ot
     }
 }
 
-void compared_stored(Ui& ui, QueryInspector& queries) {
+void compared_stored(Ui& ui, QueryInspector& queries, std::span<const DrawnAgent> sides) {
     const std::shared_ptr<const mobb::Trace> stored = queries.stored_trace();
     if (!stored) return words(ui.style.quiet, "The scene has no stored trace of this query.");
     const mobb::Trace& present = ui.workspace.recorded()->trace;
     const TraceCheck& check = queries.stored_check();
-    words(check.agrees() ? ui.style.quiet : ui.style.warning, as_sentence(check_words(check, *stored, present) + '.'));
+    words(check.agrees() ? ui.style.quiet : ui.style.warning,
+          as_sentence(check_words(check, sides, *stored, present) + '.'));
     ui.mark_only("compare.words");
-    const SteppedTraces both = traces_at(*stored, present, ui.workspace.step());
+    const SteppedTraces both = traces_at(sides, *stored, present, ui.workspace.step());
     const std::string step = "Step " + std::to_string(ui.workspace.step());
     for (const auto& [whose, found] : {std::pair(", stored: ", &both.stored), std::pair(", now: ", &both.present)})
         words(both.agree ? ui.style.quiet : ui.style.warning, step + whose + *found);
@@ -225,7 +227,7 @@ void QueryPictures::compare(Ui& ui, QueryInspector& queries, const QueryFindings
     choose_what(ui, queries);
     if (!with) return;
     const std::shared_ptr<const FitComparison> other = queries.comparison();
-    if (!other) return compared_stored(ui, queries);
+    if (!other) return compared_stored(ui, queries, findings.sides);
     words(ui, ui.style.text, comparison_words(other->traversals, other->names) + ".");
     ui.mark_only("compare.words");
     if (!other->traversals.times.empty()) {

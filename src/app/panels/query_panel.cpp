@@ -54,7 +54,7 @@ void answer_sign(Ui& ui, bool collide, ImU32 color) {
     if (ImGui::GetContentRegionAvail().x >= ui.px(kLeastWords)) ImGui::SameLine(0, ui.px(8));
 }
 
-void expectation(Ui& ui, QueryInspector& queries) {
+void expectation(Ui& ui, QueryInspector& queries, std::span<const DrawnAgent> sides) {
     const auto index = static_cast<std::size_t>(*ui.workspace.view().query);
     const SceneQuery query = ui.workspace.fitted().queries()[index];
     const auto wrong = disagreement(query, queries.answer_of(index));
@@ -62,7 +62,7 @@ void expectation(Ui& ui, QueryInspector& queries) {
     if (wrong) words(ui.style.warning, "Not as the scene expects: " + *wrong);
     if (!traces_agree) {
         const std::string traces =
-            check_words(queries.stored_check(), *query.trace, ui.workspace.recorded()->trace) + '.';
+            check_words(queries.stored_check(), sides, *query.trace, ui.workspace.recorded()->trace) + '.';
         const bool answer_agrees = query.expect && !wrong;
         words(ui.style.warning,
               answer_agrees ? "The answer is as the scene expects, but " + traces : as_sentence(traces));
@@ -196,7 +196,7 @@ void query_answer(Ui& ui, QueryInspector& queries, const QueryFindings& findings
         query_button(ui, "Go to contact", "go.contact");
     }
     bodies.show(ui, queries.findings());
-    expectation(ui, queries);
+    expectation(ui, queries, findings.sides);
 }
 
 void recording_note(Ui& ui, const std::string& where) {

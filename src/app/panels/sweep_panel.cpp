@@ -1,6 +1,7 @@
 #include <app/panels/panels.h>
 #include <app/ui/overlay.h>
 #include <app/ui/widgets.h>
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <render/pictures/sweep_chart.h>
 #include <scene/fit_text.h>
@@ -211,12 +212,23 @@ void best_rows(Ui& ui, const SweepResult& result) {
     });
 }
 
-/// What is recommended where queries are asked so, and the way to it.
+/// The way to what is recommended. It stands above all words that change, so that it stays under the mouse.
+void apply_buttons(Ui& ui, const SweepResult& result) {
+    command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
+    const std::optional<std::size_t> cold = result.of(Protocol::cold).recommended;
+    if (!cold || cold == result.of(Protocol::warm).recommended) return;
+    ImGui::SameLine();
+    if (ImGui::Button("Apply cold")) apply_row(ui, result.rows[*cold]);
+    ui.mark("sweep.apply_cold");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Fits the trees as is recommended for cold queries");
+}
+
+/// What is recommended where queries are asked so.
 void recommendation(Ui& ui, const SweepResult& result, Protocol protocol) {
     const SweepAdvice& advice = result.of(protocol);
     const std::string mark = protocol == Protocol::warm ? "sweep.why" : "sweep.why_cold";
     framed(ui, to_im(with_alpha(ui.style.palette.separated, 0.14f)), to_im(ui.style.palette.separated), [&] {
-        // "moving boxes, leaf 34: 70 ns +-1, 30 % less than MOBB, leaf 10 (now)" and ", over 4096 placements; ..."
+        // "moving boxes, leaf 34: 70 ns +-1, 30 % less than MOBB, leaf 10 (now)" and ", over 4,096 placements; ..."
         std::string why = advice.why;
         const bool is_as_then = row_of_now(ui, result) == result.present;
         if (const std::size_t now = why.find(" (now)"); now != std::string::npos && !is_as_then)
@@ -231,17 +243,12 @@ void recommendation(Ui& ui, const SweepResult& result, Protocol protocol) {
         ImGui::PopFont();
         ui.mark_only(mark);
         if (end < why.size()) words(ui, ui.style.text, why.substr(end + 2));
-        if (protocol == Protocol::warm) {
-            command_button(ui, "Apply", "tree.sweep_apply", "sweep.apply");
-        } else if (advice.recommended && advice.recommended != result.of(Protocol::warm).recommended &&
-                   small_button(ui, "Apply", "sweep.apply_cold", "Fits the trees so")) {
-            apply_row(ui, result.rows[*advice.recommended]);
-        }
     });
 }
 
 std::string asked_words(const SweepInspector::Shown& shown) {
-    const std::string count = counted(shown.rows->queries, "query", "queries");
+    const std::size_t queries = shown.rows->queries;
+    const std::string count = grouped(queries) + (queries == 1 ? " query" : " queries");
     if (shown.workload == QueryWorkload::Kind::queries) return count + " of this scene";
     return count + ": shift over " + figure(shown.area, 3) + " m\u00B2, start within \u00B1" + brief(shown.offset) +
            " s";
@@ -265,6 +272,7 @@ void sweep_panel(Ui& ui, SweepInspector& sweeps) {
         ui.mark_only("sweep.stale");
     } else if (!shown->rows->rows.empty()) {
         if (has_times(*shown->rows)) {
+            apply_buttons(ui, *shown->rows);
             for (const Protocol protocol : kProtocols) recommendation(ui, *shown->rows, protocol);
         } else if (shown->rows->has_ended()) {
             words(ui.style.quiet, "Not measured in a picture, which is the same each time: nothing is recommended.");

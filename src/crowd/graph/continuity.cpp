@@ -1,3 +1,4 @@
+#include <base/median.h>
 #include <base/threads.h>
 #include <crowd/graph/continuity.h>
 #include <crowd/graph/graph_figures.h>
@@ -249,9 +250,7 @@ class Measurer {
         }
         to.contacts = slides.size();
         if (slides.empty()) return;
-        const auto middle = slides.begin() + static_cast<std::ptrdiff_t>(slides.size() / 2);
-        std::nth_element(slides.begin(), middle, slides.end());
-        to.median_slide = *middle;
+        to.median_slide = median(std::move(slides));
     }
 
     static void add(const Continuity& more, Continuity& to) {

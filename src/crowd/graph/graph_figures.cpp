@@ -1,4 +1,5 @@
 #include <base/error.h>
+#include <base/median.h>
 #include <base/text.h>
 #include <base/threads.h>
 #include <crowd/graph/graph_figures.h>
@@ -108,9 +109,7 @@ TransitionSpread spread_of(const std::vector<std::pair<int, int>>& transitions, 
     }
     out.count = measured.size();
     if (measured.empty()) return out;
-    const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
-    std::nth_element(measured.begin(), middle, measured.end());
-    out.median = *middle;
+    out.median = median(std::move(measured));
     return out;
 }
 

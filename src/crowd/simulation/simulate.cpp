@@ -76,6 +76,12 @@ class Simulator {
         const std::string file = moves_.fitted().scene().file.string();
         if (moves_.unturned().empty()) throw InputError(file, "the graph has no move; add one");
         for (const int move : moves_.unturned()) {
+            if (const mobb::Clip& clip = moves_.clip(move).clip(); options_.seconds > clip.most_start()) {
+                throw InputError(file, "move " + std::to_string(move) + " of the graph has a dt of " +
+                                           brief(clip.dt()) + " s: doubles tell its samples' times apart within " +
+                                           figure(std::max(clip.most_start(), 0.0), 3) + " s; simulate fewer than " +
+                                           brief(options_.seconds) + " s, or give a larger dt");
+            }
             if (moves_.until_next(move) < kLeastMove) {
                 throw InputError(file, "move " + std::to_string(move) + " of the graph lasts " +
                                            brief(moves_.until_next(move)) + " s; a crowd plays moves of " +

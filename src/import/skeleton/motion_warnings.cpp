@@ -1,3 +1,4 @@
+#include <base/median.h>
 #include <base/text.h>
 #include <import/skeleton/motion_clips.h>
 
@@ -25,12 +26,6 @@ constexpr double kMaxRadius = 1.5;
 constexpr double kBelowFloor = 0.1;  // m
 constexpr double kMinHeight = 1.1;   // m: of a body whose height gave the unit
 constexpr double kMaxHeight = 2.3;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Three decimals: millimetres, milliseconds.
 std::string rounded(double value) { return format_double(std::round(value * 1000) / 1000); }

@@ -1,4 +1,5 @@
 // Trajectories in columns: which of four formats a text is, and its rows.
+#include <base/median.h>
 #include <import/clip/column_names.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/remarks.h>
@@ -374,13 +375,12 @@ class TextTracksParser {
         }
         const std::string otherwise = " give unit if that is wrong";
         if (!heights_.empty()) {
-            const auto middle = heights_.begin() + std::ssize(heights_) / 2;
-            std::nth_element(heights_.begin(), middle, heights_.end());
+            const double read = median(heights_);
             const std::array<double, 3> units{1, 0.01, 0.001};
             const double unit = *std::min_element(units.begin(), units.end(), [&](double a, double b) {
-                return std::abs(a * *middle - kHeadHeight) < std::abs(b * *middle - kHeadHeight);
+                return std::abs(a * read - kHeadHeight) < std::abs(b * read - kHeadHeight);
             });
-            const double height = unit * *middle;
+            const double height = unit * read;
             if (height >= kLowestHead && height <= kHighestHead) {
                 out.unit = unit;
                 out.guessed_height = height;

@@ -315,9 +315,11 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
 }
 
 DecidingTrace trace_of(const DecidingQuery& query, const mobb::FitOptions& fit) {
-    const mobb::Tree of_candidate(query.candidate.clip, fit), of_other(query.other.clip, fit);
-    const mobb::PlacedTree a(of_candidate, query.candidate.placement), b(of_other, query.other.placement);
-    DecidingTrace out{record(a, b)};
+    DecidingTrace out{{std::make_shared<const mobb::Tree>(query.candidate.clip, fit),
+                       std::make_shared<const mobb::Tree>(query.other.clip, fit)},
+                      {}};
+    const mobb::PlacedTree a(*out.trees[0], query.candidate.placement), b(*out.trees[1], query.other.placement);
+    out.recorded = record(a, b);
     out.step = out.recorded.trace.size() - 1;
     const Clearance clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
     if (out.recorded.contact || !clearance.least) return out;
@@ -367,9 +369,12 @@ std::vector<std::string> difference_lines(const MoveSet& moves, const RunDiffere
     std::string text = "decided by the query of " + side(query.candidate) + " against " + side(query.other) + ": they ";
     text += traced.recorded.contact ? "collide" + at_time(traced.recorded.contact->time) : "never collide";
     if (traced.step >= 0) {
-        const mobb::Trace::Event event = traced.recorded.trace[traced.step];
-        text += "; " + step_of(traced.step, traced.recorded.trace) + ", " + std::to_string(event.a) + " x " +
-                std::to_string(event.b) + ' ' + std::string(mobb::name(event.test)) + ": " + plain_outcome(event);
+        const auto named = [&](std::size_t i, const AskedSide& of) {
+            const std::string& name = agent_name(run, of.agent);
+            return DrawnAgent{.placed = {*traced.trees[i], of.placement}, .name = name, .label = name, .color = {}};
+        };
+        text += "; " + step_sentence(std::array{named(0, query.candidate), named(1, query.other)},
+                                     traced.recorded.trace, traced.step);
     }
     out.push_back(difference.other ? text + "; with the other answer the simulator takes what the run plays" : text);
     return out;

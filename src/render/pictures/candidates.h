@@ -8,6 +8,8 @@
 #include <scene/drawn_agent.h>
 #include <scene/fitted_scene.h>
 
+#include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +47,7 @@ std::string edited_run_warning(const Scene& run, const FollowedChoice& followed)
 
 /// The query that decides a choice, asked through trees of that fit.
 struct DecidingTrace {
+    std::array<std::shared_ptr<const mobb::Tree>, 2> trees;  ///< of the candidate and of the other; none is null
     RecordedQuery recorded;
     int step = 0;  ///< that finds the contact, or that decided about when the two are nearest; -1: none was needed
 };

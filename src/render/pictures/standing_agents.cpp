@@ -1,3 +1,4 @@
+#include <base/median.h>
 #include <base/text.h>
 #include <explain/bodies.h>
 #include <explain/query_sentence.h>
@@ -79,9 +80,7 @@ bool are_plain(std::span<const Figure> figures, float scale) {
         if (f.pixels > 0) sizes.push_back(std::max(f.height, 2 * f.radius) * f.pixels);
     }
     if (sizes.empty()) return false;
-    const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), median, sizes.end());
-    return *median < kPlainBelow * scale;
+    return median(std::move(sizes)) < kPlainBelow * scale;
 }
 
 /// Towards the eye along the floor; 0 from straight above.
