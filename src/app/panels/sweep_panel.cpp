@@ -233,6 +233,7 @@ void recommendation(Ui& ui, const SweepResult& result, Protocol protocol) {
         const bool is_as_then = row_of_now(ui, result) == result.present;
         if (const std::size_t now = why.find(" (now)"); now != std::string::npos && !is_as_then)
             why.replace(now, 6, " (before)");
+        if (const std::size_t error = why.find("+-"); error != std::string::npos) why.replace(error, 2, "\u00B1");
         const std::size_t end = std::min(why.find(", over "), why.size());
         words(ui.style.quiet, protocol == Protocol::warm ? "warm: what a query reads is in the caches"
                                                          : "cold: what a query reads is in no cache");
