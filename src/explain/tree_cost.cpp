@@ -14,6 +14,8 @@ namespace mobbscope {
 namespace {
 
 constexpr std::size_t kOfAThread = 4096;  // placements that one thread counts
+constexpr double kApart = 2.02;           // times the reach of a root, from middle to middle: more than rounding
+constexpr double kMostSlack = 1e-6;       // of the lengths involved: more than the slack of any box test
 
 /// As a part of the mean; 0 where none were made.
 double error_of(double sum, double squares, std::size_t count) {
@@ -48,12 +50,12 @@ std::size_t next_end(const PlacementCount& count, std::size_t most) {
     return std::min(wanted, most);
 }
 
-/// How far apart the middles are, in metres, from which on the roots' boxes are apart at every heading.
-double apart_from(const mobb::Tree& tree, glm::dvec2 middle) {
+/// How far the root's box reaches around the middle, in metres.
+double root_reach(const mobb::Tree& tree, glm::dvec2 middle) {
     const mobb::Box root = tree.box(0);
     double reach = glm::length(glm::dvec2(root.center) - middle) + glm::length(root.drift);
     for (int i = 0; i < 3; ++i) reach += glm::length(glm::dvec2(root.axes[static_cast<std::size_t>(i)])) * root.half[i];
-    return 2.02 * reach;  // more than rounding
+    return reach;
 }
 
 /// Standard placements of a tree against itself, asked.
@@ -61,10 +63,12 @@ class PlacementCounter {
   public:
     PlacementCounter(const mobb::Tree& tree, const StandardPlacements& placements)
         : tree_(tree), placements_(placements), a_(tree, {}) {
-        const double far = apart_from(tree, placements.middle_a);
-        if (far >= placements.side / 2) return;
-        far_ = far;
-        tests_of_far_ = tests_of({.shift = {far, 0}});
+        const double reach = root_reach(tree, placements.middle_a);
+        const double lengths = 2 * (tree.clip().reach() + glm::length(placements.middle_b) + placements.side);
+        // Where slack is as wide as the room, roots that are apart are not seen apart.
+        if (kApart * reach >= placements.side / 2 || (kApart - 2) * reach <= kMostSlack * lengths) return;
+        far_ = kApart * reach;
+        tests_of_far_ = tests_of({.shift = {far_, 0}});
     }
 
     PlacementCount count(std::size_t first, std::size_t end) const {
