@@ -1,5 +1,6 @@
 #include <app/panels/panels.h>
 #include <app/ui/widgets.h>
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <explain/level_columns.h>
 #include <explain/tree_cost.h>
@@ -39,13 +40,12 @@ std::vector<mobb::TestKind> kinds_of(const MeanTests& tests) {
     return out;
 }
 
-/// "201728 counted, \u00B10.4 %: shift over 25.6 m\u00B2, start within \u00B12 s"
+/// "201,728 counted, \u00B10.4 %: shift over 25.6 m\u00B2, start within \u00B12 s"
 std::string workload_words(const TreeCost& cost, std::size_t most) {
     if (cost.workload == Workload::queries)
         return "the mean of " + counted(cost.queries, "query", "queries") + " of this scene";
     const StandardPlacements& of = cost.expected->placements;
-    return std::to_string(cost.queries) +
-           (cost.count.is_enough(most) ? " counted, \u00B1" : " counted so far, \u00B1") +
+    return grouped(cost.queries) + (cost.count.is_enough(most) ? " counted, \u00B1" : " counted so far, \u00B1") +
            figure(100 * cost.count.standard_error(), 1) + " %: shift over " + figure(of.area(), 3) +
            " m\u00B2, start within \u00B1" + brief(of.offset) + " s";
 }
@@ -55,8 +55,8 @@ std::string formula(const TreeCost& cost) {
     if (cost.workload == Workload::queries)
         return "Tests of all queries of the scene, counted, times their price, by the number of queries.";
     const StandardPlacements& of = cost.expected->placements;
-    return "Tests of " + counted(cost.queries, "standard placement", "standard placements") +
-           " of the clip against itself (seed " + std::to_string(kCountedSeed) +
+    return "Tests of " + grouped(cost.queries) + " standard placements of the clip against itself (seed " +
+           std::to_string(kCountedSeed) +
            "), counted,\ntimes their price, by the number of placements.\n\n"
            "EV* divides the count among nodes and levels. A pair of nodes gets its part of\n"
            "P + sum over pairs (p, q) of inner nodes and over their children (a, b)\n"

@@ -1,6 +1,7 @@
 #include <app/panels/panels.h>
 #include <app/ui/overlay.h>
 #include <app/ui/widgets.h>
+#include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <render/pictures/sweep_chart.h>
 #include <scene/fit_text.h>
@@ -246,7 +247,8 @@ void recommendation(Ui& ui, const SweepResult& result, Protocol protocol) {
 }
 
 std::string asked_words(const SweepInspector::Shown& shown) {
-    const std::string count = counted(shown.rows->queries, "query", "queries");
+    const std::size_t queries = shown.rows->queries;
+    const std::string count = grouped(queries) + (queries == 1 ? " query" : " queries");
     if (shown.workload == QueryWorkload::Kind::queries) return count + " of this scene";
     return count + ": shift over " + figure(shown.area, 3) + " m\u00B2, start within \u00B1" + brief(shown.offset) +
            " s";

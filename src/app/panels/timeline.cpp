@@ -30,6 +30,7 @@ constexpr float kSlabHandleHeight = 7;  // ... upwards and downwards
 constexpr float kNoEnd = -1e9f;         // no end of the slab is dragged
 constexpr float kLeastSlab = 3;         // a shorter drag is a click, pixels at scale 1
 constexpr float kLeastStrip = 60;       // of the strip of steps, which else has a line of its own
+constexpr float kHalfLabel = 14;        // of the first label of a ruler, pixels at scale 1
 
 /// An empty span has some length too.
 ChartAxis time_axis(const mobb::Interval& span, float left, float width) {
@@ -193,7 +194,12 @@ ChartAxis time_row(Ui& ui, Playback& playback, QueryInspector& queries, PathBars
     ImGui::AlignTextToFramePadding();
     text_line(time ? ui.style.text : ui.style.quiet, time ? formatted("%7.3f s", *time) : "   off   ", ui.style.mono);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("The time cursor: who is where at this moment");
-    if (tall) bottom_tabs(ui);
+    if (tall) {
+        bottom_tabs(ui);
+        // The first label of the ruler begins before the bars do.
+        ImGui::SameLine(0, ui.px(kHalfLabel));
+        ImGui::Dummy({});
+    }
     ImGui::EndGroup();
     const float clear = ImGui::GetFrameHeight();
     // Of a narrow window the bars have a line of their own.
