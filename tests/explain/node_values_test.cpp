@@ -143,6 +143,19 @@ TEST(NodeValues, WasteAddsUpToTheEmptySpaceOfTheRoot) {
     }
 }
 
+/// A scale of colours would begin at what rounding leaves.
+TEST(NodeValues, NothingIsWastedBetweenBoxesThatStand) {
+    const auto clip =
+        std::make_shared<const mobb::Clip>(1.0 / 30, std::vector<mobb::Disk>(1000, mobb::Disk{0.1, 0.7, 0.3}));
+    for (const int leaf : {1, 3, 10}) {
+        const auto tree = std::make_shared<const mobb::Tree>(clip, mobb::FitOptions{.leaf = leaf});
+        const NodeValues values(tree, {});
+        for (int i = 0; i < values.size(); ++i) {
+            if (!tree->is_leaf(i)) EXPECT_EQ(values.value(NodeField::waste, i), 0) << leaf << ' ' << i;
+        }
+    }
+}
+
 TEST(NodeValues, TestsAndBlameAreThoseOfTheClip) {
     const auto tree = tree_of(mobb::TreeKind::mobb);
     NodeValues values(tree, std::vector<double>(tree->nodes().size(), 0.25));

@@ -65,6 +65,25 @@ TEST(TreeCost, IsTheMeanOfStandardPlacements) {
     }
 }
 
+/// There the slack of box tests is wider than the room between roots.
+TEST(TreeCost, IsOfEachPlacementWhereSlackIsWide) {
+    std::vector<mobb::Disk> walk, point;
+    for (int i = 0; i < 60; ++i) walk.push_back({5e5 + 0.05 * i, 5.9e6, 0.3});
+    point.assign(60, {1, 2, 0});
+    for (const std::vector<mobb::Disk>& disks : {walk, point}) {
+        const auto clip = std::make_shared<const mobb::Clip>(0.1, disks, mobb::Motion::linear);
+        for (const mobb::TreeKind kind : mobb::kTreeKinds) {
+            if (mobb::info(kind).has_blocks()) continue;
+            const auto tree = std::make_shared<const mobb::Tree>(clip, mobb::FitOptions{.tree = kind});
+            const auto cost = standard_cost(tree, 5000);
+            ASSERT_TRUE(cost);
+            const MeanTests mean = mean_tests(asked_again(tree, cost->queries));
+            for (const mobb::TestKind test : mobb::kTestKinds)
+                EXPECT_DOUBLE_EQ(cost->tests[test], mean[test]) << mobb::name(kind);
+        }
+    }
+}
+
 TEST(TreeCost, IsCountedUntilItsErrorsAreSmall) {
     const auto tree = crossing_with(mobb::TreeKind::mobb).shared_tree(1);
     const auto cost = standard_cost(tree);

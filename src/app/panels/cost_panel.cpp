@@ -239,8 +239,9 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
         // No query came so deep.
         costs.resize(std::max(costs.size(), figures.size()));
     }
-    // The largest has three digits, and all of them its decimals.
-    const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(most))), 0, 9);
+    // The largest has three digits, and all of them its decimals, where these have room.
+    const bool are_fixed = most >= 0.01 && most < 1e6;
+    const int decimals = std::max(2 - static_cast<int>(std::floor(std::log10(most))), 0);
     const ImFont& mono = *ui.style.mono;
     const float height = ui.px(18);
     const LevelLayout at(ui, std::max(1.0f, ImGui::GetContentRegionAvail().x));
@@ -266,8 +267,7 @@ void levels(Ui& ui, const std::vector<mobb::LevelFigures>& figures, const TreeCo
                 (text != "-" && copies(ui, {{from.x, y}, {corner.x + right, y + mono.FontSize}}, number)) || copied;
         };
         draw_text(draw, mono, {corner.x, y}, color, "L" + std::to_string(i));
-        ending(at.volume,
-               level ? formatted(most < 1e6 ? "%.*f" : "%.*g", most < 1e6 ? decimals : 3, level->volume) : "-",
+        ending(at.volume, level ? formatted(are_fixed ? "%.*f" : "%.*g", are_fixed ? decimals : 3, level->volume) : "-",
                {.value = level ? level->volume : 0, .unit = "m\u00B2\u00B7s", .with_ctrl = true});
         const double fill = level ? level->tightness.value_or(0) : 0;
         ending(at.fill, level && level->tightness ? per_cent(fill) : "-",
