@@ -16,7 +16,7 @@ namespace {
 constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 /// Edges that are shorter along time than this part of the longest add nothing that is seen, but rounding.
 constexpr double kLeastEdge = 1e-4;
-constexpr double kRounding = 1e-12;  // of a volume: less than that is left of differences where nothing should be
+constexpr double kOfRounding = 1e-12;  // of a volume: less than that is left of differences where nothing should be
 
 double cross(const glm::dvec3& a, const glm::dvec3& b) { return std::abs(a.x * b.y - a.y * b.x); }
 
@@ -96,7 +96,7 @@ NodeValues::NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const d
         of(NodeField::leaf)[at] = tree_->is_leaf(i) ? 1 : 0;
         of(NodeField::volume)[at] = volume;
         // A box around samples that stand may be as large as their cylinders, and differ by rounding.
-        const double empty = volume - filled < kRounding * volume ? 0 : volume - filled;
+        const double empty = volume - filled < kOfRounding * volume ? 0 : volume - filled;
         of(NodeField::empty)[at] = empty;
         of(NodeField::waste)[at] = tree_->is_leaf(i) ? empty : volume;
         // Parents come before their children.
@@ -110,7 +110,7 @@ NodeValues::NodeValues(std::shared_ptr<const mobb::Tree> tree, std::span<const d
     }
     for (std::size_t i = 0; i < all; ++i) {
         double& waste = of(NodeField::waste)[i];
-        if (std::abs(waste) < kRounding * of(NodeField::volume)[i]) waste = 0;
+        if (std::abs(waste) < kOfRounding * of(NodeField::volume)[i]) waste = 0;
     }
     add_shares(shares);
 }
