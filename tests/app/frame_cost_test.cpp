@@ -15,13 +15,17 @@ std::atomic<std::size_t> allocated_blocks = 0, allocated_bytes = 0;
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     ++allocated_blocks;
     allocated_bytes += size;
-    if (void* block = std::malloc(size)) return block;
+    return std::malloc(size);
+}
+void* operator new(std::size_t size) {
+    if (void* block = operator new(size, std::nothrow)) return block;
     throw std::bad_alloc();
 }
 void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, const std::nothrow_t&) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace mobbscope::app {
