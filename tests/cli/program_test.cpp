@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -298,6 +299,12 @@ TEST(Program, NamesThatMisleadTheEyeAreShownAsTheyAre) {
     }
 }
 
+/// What it says, but for how far it is: a slow machine makes it tell that.
+std::string said_but_progress(const Result& run) {
+    static const std::regex progress("mobbscope: [a-z]+ [0-9]+ of [0-9]+ [^\n]*\n");
+    return std::regex_replace(run.err, progress, "");
+}
+
 TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     const std::string scene = kCrossing;
@@ -308,7 +315,7 @@ TEST(Program, ResultsThatCannotBeWrittenAreStatusThree) {
                                                       {"query", scene, "--json"}}) {
         const Result run = run_program(arguments, "/dev/full");
         EXPECT_EQ(run.status, 3) << arguments[0];
-        EXPECT_TRUE(is_one_line(run.err)) << run.err;
+        EXPECT_TRUE(is_one_line(said_but_progress(run))) << run.err;
     }
 }
 
@@ -342,7 +349,7 @@ TEST(Program, AReaderThatGoesAwayEndsACommandQuietly) {
           {"render", "--list-backends"}}) {
         const Result run = run_without_reader(arguments);
         EXPECT_EQ(run.status, 128 + SIGPIPE) << arguments[0];
-        EXPECT_EQ(run.err, "") << arguments[0];
+        EXPECT_EQ(said_but_progress(run), "") << arguments[0];
     }
 }
 
