@@ -12,7 +12,9 @@
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
 #include <import/tracks/csv.h>
+#include <import/tracks/logs.h>
 #include <import/tracks/mapf_plan.h>
+#include <import/tracks/sumo.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -94,13 +96,25 @@ constexpr FileReader kMapfPlan{parse_once<parse_mapf_plan, track_clips, track_of
                                looks_like_mapf_plan};
 constexpr FileReader kTextPlan{parse_once<parse_mapf_text_plan, track_clips, track_offer>, Contents::trajectories,
                                looks_like_mapf_text_plan};
+constexpr FileReader kRobotRunners{parse_once<parse_robot_runners, track_clips, track_offer>, Contents::trajectories,
+                                   looks_like_robot_runners};
+constexpr FileReader kCcbsPlan{parse_once<parse_ccbs_plan, track_clips, track_offer>, Contents::trajectories,
+                               looks_like_ccbs_plan};
+constexpr FileReader kTrackerPlan{parse_once<parse_mapf_tracker, track_clips, track_offer>, Contents::trajectories,
+                                  looks_like_mapf_tracker};
+constexpr FileReader kSumoXml{parse_once<parse_sumo_xml, track_clips, track_offer>, Contents::trajectories,
+                              looks_like_sumo_xml};
+constexpr FileReader kSumoTable{parse_once<parse_sumo_table, track_clips, track_offer>, Contents::trajectories,
+                                looks_like_sumo_table};
+constexpr FileReader kLog{parse_once<parse_log, track_clips, track_offer>, Contents::trajectories, looks_like_log};
 constexpr FileReader kTable{parse_once<read_csv, table_clips, table_offer>, Contents::table, looks_like_table};
 constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories,
                                  looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,      &kFbx,   &kGltf,      &kTrajnetpp,
-                                            &kMapfPlan, &kTextPlan, &kTable, &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,         &kFbx,     &kGltf,     &kTrajnetpp,
+                                            &kRobotRunners, &kCcbsPlan,    &kSumoXml, &kMapfPlan, &kTextPlan,
+                                            &kSumoTable,    &kTrackerPlan, &kLog,     &kTable,    &kTextTracks};
 
 struct Format {
     std::string_view extension;
@@ -121,6 +135,7 @@ constexpr Format kFormats[] = {
     {".ndjson", &kTrajnetpp},
     {".yaml", &kMapfPlan},
     {".yml", &kMapfPlan, false},
+    {".xml", &kSumoXml},
     {".sqlite", &kJupedsim},
     {".sqlite3", &kJupedsim, false},
     {".db", &kJupedsim, false},
