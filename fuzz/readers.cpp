@@ -20,9 +20,6 @@
 #include <import/nodes/gltf.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
-#include <import/tracks/csv.h>
-#include <import/tracks/mapf_plan.h>
-#include <import/tracks/tracks.h>
 #include <mobb/tree.h>
 #include <picture_tests/held_answers.h>
 #include <picture_tests/picture_state.h>
@@ -133,12 +130,6 @@ void use_motions(const MotionFile& file, const std::string& bytes) {
     use_clips(motion_clips(file, "fuzz", options));
 }
 
-void use_tracks(const TrackFile& file, const std::string& bytes) {
-    const ImportOptions options = some_options(bytes, Contents::trajectories);
-    track_offer(file, "fuzz", options);
-    use_clips(track_clips(file, "fuzz", options));
-}
-
 std::string view_text(const ViewState& view) {
     std::ostringstream out;
     JsonWriter json(out);
@@ -161,11 +152,13 @@ void read_fbx(const std::string& bytes) { use_motions(parse_fbx(bytes, "fuzz.fbx
 void read_gltf(const std::string& bytes) { use_motions(parse_gltf(bytes, kSeedFolder / "gltf/fuzz.gltf"), bytes); }
 void read_bvh(const std::string& bytes) { use_motions(bvh_motion(parse_bvh(bytes, "fuzz.bvh")), bytes); }
 
-void read_csv(const std::string& bytes) {
-    const ImportOptions options = some_options(bytes, Contents::table);
-    const CsvTable table = parse_csv(bytes, "fuzz.csv", options);
-    csv_offer(table, "fuzz.csv", options);
-    use_clips(csv_clips(table, "fuzz.csv", options));
+void read_tracks(const FileReader& reader, const std::string& bytes) {
+    const ImportOptions options = some_options(bytes, reader.contents);
+    InputBytes input;
+    input.bytes = bytes;
+    const ParsedFile parsed = reader.parse("fuzz", std::move(input));
+    parsed.offer(options);
+    use_clips(parsed.clips(options));
 }
 
 void read_radius_table(const std::string& bytes) {
@@ -173,12 +166,6 @@ void read_radius_table(const std::string& bytes) {
     const RadiusTable table = read_radii(file.path());
     for (const auto& [key, radius] : table.radii) require(table.of(key) == radius, "a radius is another one");
 }
-
-void read_jupedsim(const std::string& bytes) { use_tracks(parse_jupedsim(bytes, "fuzz.sqlite"), bytes); }
-void read_text_tracks(const std::string& bytes) { use_tracks(parse_text_tracks(bytes, "fuzz.txt"), bytes); }
-void read_trajnetpp(const std::string& bytes) { use_tracks(parse_trajnetpp(bytes, "fuzz.ndjson"), bytes); }
-void read_mapf_plan(const std::string& bytes) { use_tracks(parse_mapf_plan(bytes, "fuzz.yaml"), bytes); }
-void read_text_plan(const std::string& bytes) { use_tracks(parse_mapf_text_plan(bytes, "fuzz.txt"), bytes); }
 
 void read_any_file(const std::string& bytes) {
     const MemoryFile file(bytes);

@@ -1,6 +1,8 @@
 /// Each reader with what the program does next with what it read; see Target::read.
 #pragma once
 
+#include <import/import.h>
+
 #include <string>
 
 namespace mobbscope::fuzz {
@@ -8,13 +10,9 @@ namespace mobbscope::fuzz {
 void read_fbx(const std::string& bytes);
 void read_gltf(const std::string& bytes);
 void read_bvh(const std::string& bytes);
-void read_csv(const std::string& bytes);
+/// As a file of that reader, which is one of tracks.
+void read_tracks(const FileReader& reader, const std::string& bytes);
 void read_radius_table(const std::string& bytes);
-void read_jupedsim(const std::string& bytes);
-void read_text_tracks(const std::string& bytes);
-void read_trajnetpp(const std::string& bytes);
-void read_mapf_plan(const std::string& bytes);
-void read_text_plan(const std::string& bytes);
 void read_any_file(const std::string& bytes);  ///< told by its content, and packed by gzip
 void read_scene(const std::string& bytes);
 void read_certificate_file(const std::string& bytes);

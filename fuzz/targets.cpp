@@ -259,18 +259,12 @@ std::vector<std::string> gzip_seeds() {
     return out;
 }
 
-constexpr Target kTargets[] = {
+const Target kTargets[] = {
     {"fbx", Form::fbx, read_fbx, fbx_seeds},
     {"gltf", Form::json, read_gltf, gltf_seeds},
     {"glb", Form::glb, read_gltf, glb_seeds},
     {"bvh", Form::lines, read_bvh, none},
-    {"csv", Form::lines, read_csv, csv_seeds},
     {"radii", Form::lines, read_radius_table, none},
-    {"jupedsim", Form::sqlite, read_jupedsim, sqlite_seeds},
-    {"text-tracks", Form::lines, read_text_tracks, none},
-    {"trajnetpp", Form::lines, read_trajnetpp, none},
-    {"mapf-plan", Form::lines, read_mapf_plan, none},
-    {"mapf-text-plan", Form::lines, read_text_plan, none},
     {"gzip", Form::gzip, read_any_file, gzip_seeds},
     {"scene", Form::json, read_scene, scene_seeds},
     {"run", Form::json, read_scene, run_seeds},
@@ -289,13 +283,29 @@ constexpr Target kTargets[] = {
 
 }  // namespace
 
-std::span<const Target> targets() { return kTargets; }
+std::span<const Target> targets() {
+    // Every reader of tracks is one.
+    static const std::vector<Target> all = [] {
+        std::vector<Target> out(std::begin(kTargets), std::end(kTargets));
+        for (const FileReader* reader : file_readers()) {
+            if (reader->contents == Contents::skeletons) continue;
+            const bool is_database = reader->name == "jupedsim";
+            out.push_back({reader->name, is_database ? Form::sqlite : Form::lines,
+                           [reader](const std::string& bytes) { read_tracks(*reader, bytes); },
+                           is_database             ? sqlite_seeds
+                           : reader->name == "csv" ? csv_seeds
+                                                   : none});
+        }
+        return out;
+    }();
+    return all;
+}
 
 const Target& target_named(std::string_view name) {
-    const auto at = std::ranges::find(kTargets, name, &Target::name);
-    if (at != std::end(kTargets)) return *at;
+    const auto at = std::ranges::find(targets(), name, &Target::name);
+    if (at != targets().end()) return *at;
     std::string all;
-    for (const Target& target : kTargets) all += ' ' + std::string(target.name);
+    for (const Target& target : targets()) all += ' ' + std::string(target.name);
     throw std::invalid_argument("no such target: '" + std::string(name) + "'; there are" + all);
 }
 

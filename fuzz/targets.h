@@ -1,6 +1,7 @@
 /// What is fuzzed: every reader of the program, by name.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,7 +17,7 @@ struct Target {
     Form form;
     /// Reads the bytes and goes on as the program does. Throws InputError where it refuses them; what else it throws is
     /// a fault, and so is an answer that does not hold (std::logic_error).
-    void (*read)(const std::string& bytes);
+    std::function<void(const std::string& bytes)> read;
     /// Sound files of the project and made ones, to begin with.
     std::vector<std::string> (*seeds)();
 };

@@ -4,7 +4,7 @@
 #include <cli/command_line.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <motion_files/formats.h>
 #include <motion_files/played_motion.h>
 
@@ -91,7 +91,7 @@ void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::fil
     if (std::ranges::none_of(scene.clips, is_alone)) return;
     std::vector<ImportedClip> read;
     try {
-        read = csv_clips(parse_csv(text, out.string()), out, {});
+        read = track_clips(parse_csv(text, out.string()), out, {});
     } catch (const InputError&) {
         // No clip has two samples.
     }

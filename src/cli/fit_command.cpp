@@ -9,7 +9,7 @@
 #include <explain/node_values.h>
 #include <explain/tree_cost.h>
 #include <explain/tree_json.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <scene/fit_text.h>
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include <explain/fit_sweep.h>
 #include <explain/time_scale_curves.h>
 #include <explain/tree_cost.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <render/pictures/sweep_chart.h>
 #include <render/vector/vector_picture.h>
 #include <scene/load_files.h>

@@ -11,10 +11,10 @@
 #include <import/nodes/gltf_file.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
-#include <import/tracks/csv.h>
 #include <import/tracks/logs.h>
 #include <import/tracks/mapf_plan.h>
 #include <import/tracks/sumo.h>
+#include <import/tracks/text_rows.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -31,15 +31,15 @@ namespace mobbscope {
 namespace {
 
 MotionFile read_bvh(std::string_view text, const std::string& file) { return bvh_motion(parse_bvh(text, file)); }
-CsvFile read_csv(std::string text, const std::string& file) { return {std::move(text), file}; }
+TableFile read_table(std::string text, const std::string& file) { return {std::move(text), file}; }
 
-std::vector<ImportedClip> table_clips(const CsvFile& table, const std::filesystem::path& file,
+std::vector<ImportedClip> table_clips(const TableFile& table, const std::filesystem::path& file,
                                       const ImportOptions& options) {
-    return csv_clips(*table.table(options), file, options);
+    return track_clips(*table.table(options), file, options);
 }
 
-ImportOffer table_offer(const CsvFile& table, const std::filesystem::path& file, const ImportOptions& options) {
-    return csv_offer(*table.table(options), file, options);
+ImportOffer table_offer(const TableFile& table, const std::filesystem::path& file, const ImportOptions& options) {
+    return track_offer(*table.table(options), file, options);
 }
 
 /// What `read` makes of a file, and the clips and the offer of that.
@@ -49,10 +49,10 @@ ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
     const auto parsed = std::make_shared<const Parsed>(read(std::move(input.bytes), file.string()));
     // A table keeps its text.
     const auto spent =
-        std::make_shared<const Spent>(std::is_same_v<Parsed, CsvFile> ? std::move(input.spent) : Spent());
+        std::make_shared<const Spent>(std::is_same_v<Parsed, TableFile> ? std::move(input.spent) : Spent());
     const auto checked = [file](const ImportOptions& options) {
         at_place(file.string(), "", [&] { check(options); });
-        if (options.columns && !std::is_same_v<Parsed, CsvFile>)
+        if (options.columns && !std::is_same_v<Parsed, TableFile>)
             throw InputError(file.string(), "",
                              "columns are for tables with a header, which this is not; leave it out");
     };
@@ -74,47 +74,94 @@ ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
             }};
 }
 
-/// One kind of file, whatever its name.
-struct FileReader {
-    ParsedFile (*parse)(const std::filesystem::path&, InputBytes input);
-    Contents contents;
-    /// Whether bytes are of this kind, by their first kHead of them; null: their name tells.
-    bool (*holds)(std::string_view) = nullptr;
-};
-
 constexpr std::size_t kHead = std::size_t{1} << 16;  // bytes
 
 bool looks_like_bvh(std::string_view text) { return text.substr(0, text.find_first_of(" \t\r\n")) == "HIERARCHY"; }
 
-constexpr FileReader kBvh{parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
-constexpr FileReader kGltf{parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons, looks_like_gltf};
-constexpr FileReader kFbx{parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons, looks_like_fbx};
-constexpr FileReader kJupedsim{parse_once<parse_jupedsim, track_clips, track_offer>, Contents::trajectories, is_sqlite};
-constexpr FileReader kTrajnetpp{parse_once<parse_trajnetpp, track_clips, track_offer>, Contents::trajectories,
-                                looks_like_trajnetpp};
-constexpr FileReader kMapfPlan{parse_once<parse_mapf_plan, track_clips, track_offer>, Contents::trajectories,
-                               looks_like_mapf_plan};
-constexpr FileReader kTextPlan{parse_once<parse_mapf_text_plan, track_clips, track_offer>, Contents::trajectories,
-                               looks_like_mapf_text_plan};
-constexpr FileReader kRobotRunners{parse_once<parse_robot_runners, track_clips, track_offer>, Contents::trajectories,
-                                   looks_like_robot_runners};
-constexpr FileReader kCcbsPlan{parse_once<parse_ccbs_plan, track_clips, track_offer>, Contents::trajectories,
-                               looks_like_ccbs_plan};
-constexpr FileReader kTrackerPlan{parse_once<parse_mapf_tracker, track_clips, track_offer>, Contents::trajectories,
-                                  looks_like_mapf_tracker};
-constexpr FileReader kSumoXml{parse_once<parse_sumo_xml, track_clips, track_offer>, Contents::trajectories,
-                              looks_like_sumo_xml};
-constexpr FileReader kSumoTable{parse_once<parse_sumo_table, track_clips, track_offer>, Contents::trajectories,
-                                looks_like_sumo_table};
-constexpr FileReader kLog{parse_once<parse_log, track_clips, track_offer>, Contents::trajectories, looks_like_log};
-constexpr FileReader kTable{parse_once<read_csv, table_clips, table_offer>, Contents::table, looks_like_table};
-constexpr FileReader kTextTracks{parse_once<parse_text_tracks, track_clips, track_offer>, Contents::trajectories,
-                                 looks_like_text_tracks};
+constexpr FileReader kBvh{"bvh", parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
+constexpr FileReader kGltf{"gltf", parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons,
+                           looks_like_gltf};
+constexpr FileReader kFbx{"fbx", parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons,
+                          looks_like_fbx};
+constexpr FileReader kJupedsim{"jupedsim",
+                               parse_once<parse_jupedsim, track_clips, track_offer>,
+                               Contents::trajectories,
+                               is_sqlite,
+                               {"JuPedSim (`.sqlite`)", "tables `trajectory_data`, `metadata` (versions 1 to 3)",
+                                "metres, `fps` of the metadata"}};
+constexpr FileReader kTrajnetpp{
+    "trajnetpp",
+    parse_once<parse_trajnetpp, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_trajnetpp,
+    {"TrajNet++ (`.ndjson`)", "`{\"scene\": {\"fps\"}}`, `{\"track\": {\"f\", \"p\", \"x\", \"y\"}}`",
+     "metres, points a second as the scenes' `fps`"}};
+constexpr FileReader kMapfPlan{"mapf-plan",
+                               parse_once<parse_mapf_plan, track_clips, track_offer>,
+                               Contents::trajectories,
+                               looks_like_mapf_plan,
+                               {"path-finding plans (`.yaml`)", "`schedule:`, a list of t, x, y for each agent",
+                                "one cell a metre, one step a second"}};
+constexpr FileReader kTextPlan{"mapf-text-plan",
+                               parse_once<parse_mapf_text_plan, track_clips, track_offer>,
+                               Contents::trajectories,
+                               looks_like_mapf_text_plan,
+                               {"plans of LaCAM, PIBT; of EECBS, CBSH2-RTC, MAPF-LNS2 (`.txt`)",
+                                "a line a step: `3:(x,y),(x,y),`, below `solution=` or alone; or a line an agent: "
+                                "`Agent 0: (row,column)->(row,column)->`",
+                                "the same; of a line an agent x is the column, y the row (a warning says so)"}};
+constexpr FileReader kRobotRunners{"robot-runners",
+                                   parse_once<parse_robot_runners, track_clips, track_offer>,
+                                   Contents::trajectories,
+                                   looks_like_robot_runners,
+                                   {"plans of Robot Runners (`.json`)",
+                                    "`start`: [row, column, heading] of each robot; `actualPaths`, else "
+                                    "`plannerPaths`: its actions, `F,R,C,W` or `R,D,L,U,W`",
+                                    "one cell a metre, one step a second; x is the column, y the row"}};
+constexpr FileReader kTrackerPlan{
+    "mapf-tracker",
+    parse_once<parse_mapf_tracker, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_mapf_tracker,
+    {"plans of the MAPF tracker (`.csv`)",
+     "one row, whose `solution_plan` or `path` has a line of moves `u`, `d`, `l`, `r`, `w` for each agent; the "
+     "scenario with their starts lies beside it, `MAP-TYPE-ID.scen`",
+     "the same"}};
+constexpr FileReader kCcbsPlan{"ccbs",
+                               parse_once<parse_ccbs_plan, track_clips, track_offer>,
+                               Contents::trajectories,
+                               looks_like_ccbs_plan,
+                               {"logs of Continuous-CBS (`.xml`)",
+                                "sections of each agent's path, with their durations", "the same; time is continuous"}};
+constexpr FileReader kSumo{
+    "sumo",
+    parse_once<parse_sumo, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_sumo,
+    {"SUMO's floating car data (`.xml`, `.csv`)",
+     "vehicles, persons and containers of each timestep; who rides in a vehicle is left out", "metres"}};
+constexpr FileReader kLog{
+    "log",
+    parse_once<parse_log, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_log,
+    {"robots' poses: TUM, KITTI (`.txt`), EuRoC, exports of ROS bags (`.csv`); VISSIM, Viswalk (`.fzp`, `.pp`)",
+     "t x y z qx qy qz qw; a matrix of twelve numbers; a header with `p_RS_R_x` or `pose.position.x`; `$VEHICLE:` or "
+     "`$PEDESTRIAN:` with SIMSEC, NO and CoordFront, or CoordCentX and CoordCentY",
+     "metres; without ids one robot; of KITTI 10 poses a second"}};
+constexpr FileReader kTable{"csv",
+                            parse_once<read_table, table_clips, table_offer>,
+                            Contents::table,
+                            looks_like_table,
+                            {"PedPy, inD, highD, NGSIM and others (`.csv`)",
+                             "[a table with ids](scenes_and_formats.md#csv)", "metres, or as names of columns say"}};
+constexpr FileReader kTextTracks{"text-tracks", parse_once<parse_text_tracks, track_clips, track_offer>,
+                                 Contents::trajectories, looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,         &kFbx,     &kGltf,     &kTrajnetpp,
-                                            &kRobotRunners, &kCcbsPlan,    &kSumoXml, &kMapfPlan, &kTextPlan,
-                                            &kSumoTable,    &kTrackerPlan, &kLog,     &kTable,    &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,      &kFbx,      &kGltf,        &kTrajnetpp,
+                                            &kRobotRunners, &kMapfPlan, &kTextPlan, &kTrackerPlan, &kCcbsPlan,
+                                            &kSumo,         &kLog,      &kTable,    &kTextTracks};
 
 struct Format {
     std::string_view extension;
@@ -135,7 +182,7 @@ constexpr Format kFormats[] = {
     {".ndjson", &kTrajnetpp},
     {".yaml", &kMapfPlan},
     {".yml", &kMapfPlan, false},
-    {".xml", &kSumoXml},
+    {".xml", &kSumo},
     {".sqlite", &kJupedsim},
     {".sqlite3", &kJupedsim, false},
     {".db", &kJupedsim, false},
@@ -145,6 +192,8 @@ const Format* format_of(const std::filesystem::path& file) {
     const auto found = std::ranges::find(kFormats, unpacked_extension(file), &Format::extension);
     return found == std::end(kFormats) ? nullptr : found;
 }
+
+// ---- which reader
 
 /// Null where no reader holds them, or none of files with skeletons where it has to be one.
 const FileReader* reader_of(std::string_view bytes, bool has_skeletons = false) {
@@ -170,6 +219,25 @@ std::string list_formats(bool trajectories, std::string_view separator, std::str
 }
 
 }  // namespace
+
+std::span<const FileReader* const> file_readers() { return kByContent; }
+
+std::string documented_track_formats() {
+    std::string out;
+    const auto add = [&out](const FormatNote& note) {
+        if (!note.who.empty())
+            out.append("| ")
+                .append(note.who)
+                .append(" | ")
+                .append(note.columns)
+                .append(" | ")
+                .append(note.assumed)
+                .append(" |\n");
+    };
+    for (const RowFormat& format : row_formats()) add(format.note);
+    for (const FileReader* reader : kByContent) add(reader->note);
+    return out;
+}
 
 std::optional<Contents> contents_by_name(const std::filesystem::path& file) {
     const Format* format = format_of(file);

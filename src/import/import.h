@@ -1,8 +1,10 @@
 /// Files to clips, whatever their format.
 #pragma once
 
+#include <base/file.h>
 #include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
+#include <import/tracks/tracks.h>
 
 #include <filesystem>
 #include <functional>
@@ -37,6 +39,21 @@ struct ParsedFile {
     /// What the file has for each option; depends on a part of `options` alone (offer_depends_on). Throws InputError.
     std::function<ImportOffer(const ImportOptions&)> offer;
 };
+
+/// One kind of file, whatever its name: a row of the table of formats.
+struct FileReader {
+    std::string_view name;  ///< of its fuzz target
+    ParsedFile (*parse)(const std::filesystem::path&, InputBytes input);
+    Contents contents;
+    bool (*holds)(std::string_view);  ///< whether bytes are of this kind, by the first 64 KiB of them
+    FormatNote note{};                ///< of tracks
+};
+
+/// All readers. The first that holds a file reads it.
+std::span<const FileReader* const> file_readers();
+
+/// The rows of the table in docs/trajectories.md.
+std::string documented_track_formats();
 
 /// Reads a file, which may be standard input ("-") and packed by gzip. What it is its content tells; where that tells
 /// nothing, its extension. Throws InputError.

@@ -1,6 +1,6 @@
 #include "run_program.h"
 
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <scene/scene.h>
 #include <support/folders.h>
 #include <support/temp_folder.h>

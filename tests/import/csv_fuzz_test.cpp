@@ -1,6 +1,6 @@
 // Damaged CSV files give clips or an InputError, nothing else, and soon.
 #include <base/error.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(CsvFuzz, DamagedFilesAreReadOrRefused) {
         if (round % 5 == 0) options.trim = {0.05, 0.4};
         if (round % 5 == 1) options.origin = Origin::start_heading;
         try {
-            csv_clips(parse_csv(text, "fuzz.csv", options), "fuzz.csv", options);
+            track_clips(parse_csv(text, "fuzz.csv", options), "fuzz.csv", options);
             ++read;
         } catch (const InputError& error) {
             ASSERT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();

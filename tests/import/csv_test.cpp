@@ -1,7 +1,7 @@
 #include "imported.h"
 
 #include <import/import.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -100,8 +100,7 @@ TEST(Csv, OtherTimesAreResampledFromTheFirstToTheLast) {
     ten.fps = 10;
     EXPECT_EQ(only(csv_clips(text, ten)).count(), 5);
     ASSERT_EQ(read[0].facts.warnings.size(), 1u);
-    EXPECT_EQ(read[0].facts.warnings[0].text,
-              "the times are not uniform (line 3: 10.1 s, in step would be 10.133 s); the path is resampled at 30 fps");
+    EXPECT_EQ(said(read[0].facts.warnings[0]), "the times are not uniform; the path is resampled at 30 fps (line 3)");
     EXPECT_NE(csv_clips(text, ten)[0].facts.warnings.at(0).text.find("resampled at 10 fps"), std::string::npos);
 }
 
@@ -160,13 +159,13 @@ TEST(Csv, TrimTakesSecondsFromTheFirstRow) {
     EXPECT_EQ(only(rows).dt(), 1);
     EXPECT_TRUE(rows[0].facts.warnings.empty());
     options.trim = {2.5, 99};
-    EXPECT_EQ(csv_clips(text, options)[0].facts.warnings,
-              (std::vector<ImportWarning>{
-                  {"trim ends at 99 s, but the rows last 10 s; all of them to the end are taken", "trim"}}));
+    EXPECT_EQ(
+        csv_clips(text, options)[0].facts.warnings,
+        (std::vector<ImportWarning>{{"trim ends at 99 s, but the file lasts 10 s; all to the end is taken", "trim"}}));
     EXPECT_EQ(only(csv_clips(text, options)).count(), 8);
     EXPECT_EQ(only(csv_clips(text, options)).samples()[0].x, 2.5);
     options.trim = {20, 30};
-    EXPECT_NE(csv_refusal(text, options).find("trim begins at 20 s but the file lasts 10 s"), std::string::npos);
+    EXPECT_NE(csv_refusal(text, options).find("nobody is there between 20 and 30 s of trim"), std::string::npos);
 }
 
 TEST(Csv, OptionsOutOfRangeOrForOtherFormatsAreRefused) {
@@ -223,7 +222,7 @@ TEST(Csv, AColumnThatTheRadiusNamesHoldsTheRadii) {
     EXPECT_EQ(csv_refusal("t,x,y,width\n0,0,0,1\n1,0,0,-2\n", options),
               "f.csv: line 3, column 4 (width): the radius is negative; give 0 or more");
     EXPECT_NE(csv_refusal("t,x,y,width,width\n0,0,0,1,1\n", options).find("stands twice"), std::string::npos);
-    const ImportOffer offer = csv_offer(parse_csv(text, "f.csv", options), "f.csv", options);
+    const ImportOffer offer = track_offer(parse_csv(text, "f.csv", options), "f.csv", options);
     ASSERT_EQ(offer.find("radius")->choices.size(), 1u);
     EXPECT_EQ(offer.find("radius")->choices[0].value, "r");
 }

@@ -5,6 +5,7 @@
 #include <base/file.h>
 #include <import/import.h>
 #include <support/bvh_text.h>
+#include <support/folders.h>
 #include <support/gzip.h>
 #include <support/input_error.h>
 #include <support/mutate.h>
@@ -85,6 +86,16 @@ TEST(FileKinds, GltfIsToldByItsContentWhateverItsName) {
     EXPECT_EQ(import_clips(folder.write("late", late), {}).front().facts.format, "gltf");
     late.insert(late.rfind("\"asset\""), R"("copies":[")" + std::string(100'000, 'x') + "\"],");
     EXPECT_EQ(import_clips(folder.write("late", late), {}).front().facts.format, "gltf") << "beyond what is looked at";
+}
+
+TEST(FileKinds, TheDocumentsListEveryFormatOfTracks) {
+    const std::string document = slurp(kSource / "docs/trajectories.md");
+    EXPECT_NE(document.find("\n" + documented_track_formats() + "\n"), std::string::npos)
+        << "the table in docs/trajectories.md has to have these rows:\n"
+        << documented_track_formats();
+    for (const FileReader* reader : file_readers())
+        EXPECT_EQ(reader->note.who.empty(), reader->contents == Contents::skeletons || reader->name == "text-tracks")
+            << reader->name;
 }
 
 TEST(FileKinds, WhatIsNearlyGltfIsNot) {

@@ -1,7 +1,7 @@
 /// What an import makes of a text, refuses, and warns of.
 #pragma once
 
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace mobbscope {
 inline namespace testing {
 
 inline std::vector<ImportedClip> csv_clips(std::string_view text, const ImportOptions& options = {}) {
-    return csv_clips(parse_csv(text, "f.csv", options), "f.csv", options);
+    return track_clips(parse_csv(text, "f.csv", options), "f.csv", options);
 }
 
 inline std::string csv_refusal(std::string_view text, const ImportOptions& options = {}) {

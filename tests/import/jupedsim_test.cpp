@@ -143,13 +143,13 @@ TEST(Jupedsim, WhatIsMissingOrWrongIsSaid) {
                                 "VALUES(0,1,2,3),(" +
                                 values + ")");
     };
-    EXPECT_EQ(row("1,1,NULL,3"), "f.sqlite: row 2 of trajectory_data, pos_x: there is no value; give a number");
+    EXPECT_EQ(row("1,NULL,2,3"), "f.sqlite: row 2 of trajectory_data, id: there is no value; give a number");
     EXPECT_NE(row("1,1,2,'here'").find("row 2 of trajectory_data, pos_y: 'here' is not a number"), std::string::npos);
     EXPECT_NE(row("1,1,x'00ff',3").find("is not a number"), std::string::npos);
     EXPECT_NE(row("1,1,1e12,3").find("is beyond 1e+09"), std::string::npos);
     EXPECT_NE(row("1,1,9e999,3").find("is beyond"), std::string::npos);
-    EXPECT_NE(row("1.5,1,2,3").find("frame: 1.5 is not a whole number"), std::string::npos);
-    EXPECT_NE(row("1,9223372036854775807,2,3").find("id: 9.22337e+18 is beyond"), std::string::npos);
+    EXPECT_NE(row("1.5,1,2,3").find("frame: '1.5' is not a whole number"), std::string::npos);
+    EXPECT_NE(row("1,9223372036854775807,2,3").find("id: '9223372036854775807' is beyond"), std::string::npos);
     EXPECT_NE(row("0,1,2,3").find("already"), std::string::npos);
 }
 

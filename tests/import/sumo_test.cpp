@@ -46,7 +46,7 @@ TEST(Sumo, VehiclesAndPersonsAreReadFromXml) {
     EXPECT_EQ(walks(text),
               "v @0: (0,1) (1,1); p @0: (5,5); person v @0.1: (6,6); 1 row of somebody who rides in a vehicle are left "
               "out; 1 row without a place are left out; ");
-    const TrackFile read = parse_sumo_xml(text, "f");
+    const TrackFile read = parse_sumo(text, "f");
     EXPECT_EQ(read.tracks[0].label, "car");
     EXPECT_EQ(read.tracks[0].points[1].line, 11);
 }
@@ -88,7 +88,7 @@ TEST(Sumo, BadFilesAreNamed) {
          "f: line 6: the time 0 of 'v' stands already in line 3; remove one"},
     };
     for (const auto& bad : xml)
-        EXPECT_EQ(input_error([&] { parse_sumo_xml(bad.text, "f"); }).substr(0, bad.message.size()), bad.message);
+        EXPECT_EQ(input_error([&] { parse_sumo(bad.text, "f"); }).substr(0, bad.message.size()), bad.message);
     const std::string header = "timestep_time;vehicle_id;vehicle_x;vehicle_y\n";
     const struct {
         std::string text, message;
@@ -101,7 +101,7 @@ TEST(Sumo, BadFilesAreNamed) {
         {header + "x;v;1;2\n",
          "f: line 2: timestep_time is 'x', which is no number up to 1000000000000; check the row"},
     };
-    for (const auto& bad : tables) EXPECT_EQ(input_error([&] { parse_sumo_table(bad.text, "f"); }), bad.message);
+    for (const auto& bad : tables) EXPECT_EQ(input_error([&] { parse_sumo(bad.text, "f"); }), bad.message);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <import/clip/column_choice.h>
 #include <import/import.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 

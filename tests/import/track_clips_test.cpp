@@ -2,7 +2,7 @@
 #include "imported.h"
 
 #include <import/import.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <import/tracks/track_steps.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>

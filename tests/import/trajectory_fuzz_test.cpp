@@ -1,6 +1,7 @@
 // Damaged trajectory files give clips or an InputError, nothing else, and soon; and never much more than they hold.
 #include <base/error.h>
 #include <import/tracks/mapf_plan.h>
+#include <import/tracks/text_rows.h>
 #include <support/mutate.h>
 
 #include <gtest/gtest.h>

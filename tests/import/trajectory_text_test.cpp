@@ -1,7 +1,7 @@
 // Trajectories in columns: formats are told apart by content, and nothing is assumed in silence.
 #include "imported.h"
 
-#include <import/tracks/tracks.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -154,7 +154,7 @@ TEST(TrajectoryText, DroneBoxesAreTakenByTheirCentresWhileInView) {
     EXPECT_EQ(read[0].clip->samples()[0].y, 40);
     EXPECT_EQ(read[0].clip->dt(), 1.0 / 30);
     EXPECT_EQ(read[1].name, "7");
-    EXPECT_TRUE(warns(read[0], "1 row is marked as lost"));
+    EXPECT_TRUE(warns(read[0], "1 row is marked as lost or not active and left out"));
     EXPECT_TRUE(warns(read[0], "pixels"));
     EXPECT_EQ(read[0].facts.label, "Pedestrian");
     EXPECT_EQ(read[1].facts.label, "Golf Cart");
@@ -306,12 +306,12 @@ TEST(TrajectoryText, BadRowsAreNamed) {
     const struct {
         std::string text, message;
     } cases[] = {
-        {kTrajnet + "40 2 0\n", "line 5: has 3 columns but the rows before it have 4"},
-        {kTrajnet + "40 2 nan 0\n", "line 5: column 3: 'nan' is not a finite number"},
-        {kTrajnet + "40 2.5 0 0\n", "line 5: column 2: '2.5' is not a whole number"},
-        {kTrajnet + "40 2 1e12 0\n", "line 5: column 3: '1e12' is beyond 1e+09"},
-        {kTrajnet + "20 1 0 0\n", "line 5: '1' is in frame 20 already in line 2"},
-        {"# id frame x y\n1 2 3\n", "line 2: has 3 columns but a comment names 4"},
+        {kTrajnet + "40 2 0\n", "line 5: has 3 values but the rows before it have 4"},
+        {kTrajnet + "40 2 far 0\n", "line 5, column 3 (x): 'far' is not a finite number"},
+        {kTrajnet + "40 2.5 0 0\n", "line 5, column 2 (id): '2.5' is not a whole number"},
+        {kTrajnet + "40 2 1e12 0\n", "line 5, column 3 (x): '1e12' is beyond 1e+09"},
+        {kTrajnet + "20 1 0 0\n", "line 5: the frame 20 of track '1' stands already in line 2"},
+        {"# id frame x y\n1 2 3\n", "line 2: has 3 values but a comment names 4"},
         {std::string("10 1 0 0\n\0", 10), "line 2: holds a NUL byte"},
         {"\xff\xfe\x31", "line 1: is UTF-16 text"},
         {kTrajnet + "900000000000 1 0 0\n", "track '1': its times make more than"},

@@ -30,7 +30,9 @@ std::vector<ChosenColumn> chosen_columns(std::string_view text) {
             throw std::invalid_argument("columns: " + in_quotes(part) + " has no '='; " + std::string(kForm));
         const std::optional<Column> column = column_from_name(key);
         if (!column) {
-            throw std::invalid_argument("columns: " + in_quotes(key) + " is not one of id, t, frame, x, y and r; " +
+            std::string known;
+            for (const Column each : kColumns) known += (known.empty() ? "" : ", ") + std::string(name(each));
+            throw std::invalid_argument("columns: " + in_quotes(key) + " is not one of " + known + "; " +
                                         std::string(kForm));
         }
         const std::string_view value = trimmed(part.substr(equals + 1));

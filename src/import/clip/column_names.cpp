@@ -12,7 +12,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::array<std::string_view, std::size(kColumns)> kColumnNames{"id", "t", "frame", "x", "y", "r"};
+constexpr std::array<std::string_view, std::size(kColumns)> kColumnNames{"id", "t",     "frame", "x",     "y",
+                                                                         "r",  "class", "lost",  "active"};
 
 constexpr double kFoot = 0.3048;  // metres
 
@@ -68,7 +69,10 @@ const std::vector<Aliases>& aliases() {
           "ycoord", "ycoordinate"}},
         {Column::y, {"localy"}, false, "ft"},
         {Column::y, {"northing", "worldy", "yworld", "persony", "vehicley"}, true},
-        {Column::r, {"r", "radius"}}};
+        {Column::r, {"r", "radius"}},
+        {Column::label, {"class", "label", "type", "agenttype", "objecttype", "vehicletype", "persontype", "category"}},
+        {Column::lost, {"lost"}},
+        {Column::active, {"active"}}};
     return table;
 }
 
@@ -111,10 +115,10 @@ std::optional<KnownColumn> known_column(std::string_view name) {
     const std::string_view unit = plain.unit.empty() ? alias->unit : std::string_view(plain.unit);
     out.is_weak = alias->is_weak;
     if (unit.empty()) return out;
-    const bool counts = out.column == Column::id || out.column == Column::frame;
-    const std::optional<double> scale = counts                    ? std::nullopt
-                                        : out.column == Column::t ? size_of(kTimes, unit)
-                                                                  : metres_of_unit(unit);
+    const bool is_length = out.column == Column::x || out.column == Column::y || out.column == Column::r;
+    const std::optional<double> scale = out.column == Column::t ? size_of(kTimes, unit)
+                                        : is_length             ? metres_of_unit(unit)
+                                                                : std::nullopt;
     // A length in seconds is something else.
     if (!scale) return std::nullopt;
     out.scale = *scale;

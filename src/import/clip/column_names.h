@@ -8,10 +8,12 @@
 
 namespace mobbscope {
 
-enum class Column : std::uint8_t { id, t, frame, x, y, r };
-inline constexpr Column kColumns[] = {Column::id, Column::t, Column::frame, Column::x, Column::y, Column::r};
+/// `label`: the class of who is tracked; `lost` and `active`: whether a row does not count, or does.
+enum class Column : std::uint8_t { id, t, frame, x, y, r, label, lost, active };
+inline constexpr Column kColumns[] = {Column::id, Column::t,     Column::frame, Column::x,     Column::y,
+                                      Column::r,  Column::label, Column::lost,  Column::active};
 
-/// "id", "t", "frame", "x", "y", "r".
+/// "id", "t", "frame", "x", "y", "r", "class", "lost", "active".
 std::string_view name(Column column);
 std::optional<Column> column_from_name(std::string_view name);
 

@@ -1,12 +1,10 @@
 // JuPedSim's trajectories: an SQLite database with a table of points and one of metadata.
-#include <import/tracks/tracks.h>
-#include <mobb/clip.h>
+#include <import/tracks/rows.h>
 
 #include <sqlite3.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -111,21 +109,45 @@ std::string text_in(sqlite3_stmt* row, int column) {
     return text ? text : "";
 }
 
-class JupedsimReader {
+class JupedsimReader final : public Cells {
   public:
     JupedsimReader(std::string_view bytes, const std::string& file)
-        : file_(file), most_rows_(bytes.size() / kLeastRow), database_(bytes, file) {}
+        : Cells(file), most_rows_(bytes.size() / kLeastRow), database_(bytes, file), rows_(file) {}
 
     TrackFile read() {
         check_tables();
-        TrackFile out;
+        const double rate = read_metadata();
+        std::size_t place = 0;
+        for (const Column column : {Column::frame, Column::id, Column::x, Column::y}) rows_[column].emplace(place++);
+        rows_.whole_in = "jupedsim";
+        count_ = 0;
+        database_.each("SELECT frame, id, pos_x, pos_y FROM trajectory_data", [&](sqlite3_stmt* row) {
+            check_count();
+            row_ = row;
+            rows_.add(*this);
+        });
+        if (rows_.empty()) database_.fail("the table trajectory_data has no row; nobody is there");
+        TrackFile out = rows_.finish();
         out.format = "jupedsim";
-        out.rate = read_metadata();
-        read_points();
-        if (tracks_.empty()) database_.fail("the table trajectory_data has no row; nobody is there");
-        out.tracks = tracks_.take_sorted();
-        out.spent = tracks_.take_spent();
+        out.rate = rate;
         return out;
+    }
+
+    double number(std::size_t column) const override {
+        const int type = sqlite3_column_type(row_, static_cast<int>(column));
+        if (type == SQLITE_NULL) fail(column, "there is no value; give a number");
+        if (type != SQLITE_INTEGER && type != SQLITE_FLOAT)
+            fail(column, in_quotes(text(column)) + " is not a number; give one");
+        return sqlite3_column_double(row_, static_cast<int>(column));
+    }
+    std::string_view text(std::size_t column) const override { return text_ = text_in(row_, static_cast<int>(column)); }
+    bool is_empty(std::size_t column) const override {
+        return sqlite3_column_type(row_, static_cast<int>(column)) == SQLITE_NULL;
+    }
+    int line() const override { return static_cast<int>(count_); }
+    std::string place(std::size_t column) const override {
+        constexpr std::array<const char*, 4> kNames{"frame", "id", "pos_x", "pos_y"};
+        return "row " + std::to_string(count_) + " of trajectory_data, " + kNames[column];
     }
 
   private:
@@ -167,50 +189,17 @@ class JupedsimReader {
         return *rate;
     }
 
-    void read_points() {
-        rows_ = 0;
-        database_.each("SELECT frame, id, pos_x, pos_y FROM trajectory_data", [&](sqlite3_stmt* row) {
-            check_count();
-            TrackPoint point;
-            point.frame = whole(row, 0, "frame");
-            const double id = whole(row, 1, "id");
-            point.x = number(row, 2, "pos_x", mobb::kMaxLength);
-            point.y = number(row, 3, "pos_y", mobb::kMaxLength);
-            point.line = static_cast<int>(rows_);
-            tracks_.add(std::to_string(static_cast<long long>(id)), point);
-        });
-    }
-
     void check_count() {
-        if (++rows_ > most_rows_) database_.fail("the SQLite database is damaged: it repeats rows; get the file again");
+        if (++count_ > most_rows_)
+            database_.fail("the SQLite database is damaged: it repeats rows; get the file again");
     }
 
-    [[noreturn]] void fail_at(const char* column, const std::string& message) const {
-        throw InputError(file_, "row " + std::to_string(rows_) + " of trajectory_data, " + column, message);
-    }
-
-    double number(sqlite3_stmt* row, int column, const char* name, double largest) const {
-        const int type = sqlite3_column_type(row, column);
-        if (type == SQLITE_NULL) fail_at(name, "there is no value; give a number");
-        if (type != SQLITE_INTEGER && type != SQLITE_FLOAT)
-            fail_at(name, in_quotes(text_in(row, column)) + " is not a number; give one");
-        const double value = sqlite3_column_double(row, column);
-        if (!(std::abs(value) <= largest)) fail_at(name, brief(value) + " is beyond " + format_double(largest));
-        return value;
-    }
-
-    double whole(sqlite3_stmt* row, int column, const char* name) const {
-        const double value = number(row, column, name, kMaxFrame);
-        if (value != std::floor(value))
-            fail_at(name, format_double(value) + " is not a whole number; frames and ids are");
-        return value;
-    }
-
-    const std::string& file_;
     std::size_t most_rows_;
-    std::size_t rows_ = 0;  ///< read so far of the table in hand
+    std::size_t count_ = 0;  ///< rows read so far of the table in hand
     Database database_;
-    TrackCollector tracks_{file_};
+    RowReader rows_;
+    sqlite3_stmt* row_ = nullptr;  ///< in hand
+    mutable std::string text_;
 };
 
 }  // namespace

@@ -141,8 +141,8 @@ class PlanReader {
         if (tracks_.empty()) yaml_.fail(schedule_line_, "the schedule has no step; add agents with t, x, y");
         TrackFile out = plan_of(tracks_.take_sorted(), file_, tracks_.take_spent());
         if (without_steps_ > 0) {
-            out.warnings.push_back(counted(without_steps_, "agent has", "agents have") + " no step, such as " +
-                                   in_quotes(without_step_) + "; left out");
+            out.warnings.push_back({counted(without_steps_, "agent has", "agents have") + " no step, such as " +
+                                    in_quotes(without_step_) + "; left out"});
         }
         return out;
     }

@@ -232,11 +232,11 @@ class TextPlanParser {
     TrackFile finished() {
         TrackFile out = plan_of(std::move(tracks_), file_, std::move(spent_));
         if (*of_ == LineOf::agent) {
-            out.warnings.emplace_back(
-                "cells of a line an agent are taken as (row, column), as EECBS and MAPF-LNS2 write them: x is the "
-                "column, y the row");
+            out.warnings.push_back(
+                {"cells of a line an agent are taken as (row, column), as EECBS and MAPF-LNS2 write them: x is the "
+                 "column, y the row"});
         }
-        if (has_targets_) out.warnings.emplace_back("where agents are headed ('->') is ignored");
+        if (has_targets_) out.warnings.push_back({"where agents are headed ('->') is ignored"});
         return out;
     }
 

@@ -144,18 +144,9 @@ class SumoTable {
     std::array<ColumnsOfKind, std::size(kKinds)> columns_;
 };
 
-}  // namespace
+bool is_fcd(std::string_view text) { return xml_root(text) == "fcd-export"; }
 
-bool looks_like_sumo_xml(std::string_view text) { return xml_root(text) == "fcd-export"; }
-
-bool looks_like_sumo_table(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    const std::string_view header = take_row(text);
-    return header.find("timestep_time") != std::string_view::npos &&
-           header.find_first_of(";,") != std::string_view::npos;
-}
-
-TrackFile parse_sumo_xml(std::string_view text, const std::string& file) {
+TrackFile tracks_of_xml(std::string_view text, const std::string& file) {
     XmlText xml(text, file);
     SumoTracks tracks(file);
     for (const pugi::xml_node step : xml.root().children("timestep")) {
@@ -177,6 +168,18 @@ TrackFile parse_sumo_xml(std::string_view text, const std::string& file) {
     return tracks.finish();
 }
 
-TrackFile parse_sumo_table(std::string_view text, const std::string& file) { return SumoTable(text, file).read(); }
+}  // namespace
+
+bool looks_like_sumo(std::string_view text) {
+    if (is_fcd(text)) return true;
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const std::string_view header = take_row(text);
+    return header.find("timestep_time") != std::string_view::npos &&
+           header.find_first_of(";,") != std::string_view::npos;
+}
+
+TrackFile parse_sumo(std::string_view text, const std::string& file) {
+    return is_fcd(text) ? tracks_of_xml(text, file) : SumoTable(text, file).read();
+}
 
 }  // namespace mobbscope

@@ -9,14 +9,10 @@
 namespace mobbscope {
 
 /// Whether a text begins like that.
-bool looks_like_sumo_xml(std::string_view text);
-bool looks_like_sumo_table(std::string_view text);
+bool looks_like_sumo(std::string_view text);
 
-/// `<fcd-export>` with vehicles, persons and containers in its timesteps. Throws InputError naming the line.
-TrackFile parse_sumo_xml(std::string_view text, const std::string& file);
-
-/// The same as a table, where each kind has columns of its own: vehicle_id, person_x. Throws InputError naming the
-/// line.
-TrackFile parse_sumo_table(std::string_view text, const std::string& file);
+/// `<fcd-export>` with vehicles, persons and containers in its timesteps, or the same as a table, where each kind has
+/// columns of its own: vehicle_id, person_x. Throws InputError naming the line.
+TrackFile parse_sumo(std::string_view text, const std::string& file);
 
 }  // namespace mobbscope

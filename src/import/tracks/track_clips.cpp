@@ -59,9 +59,12 @@ std::string unused_radii(const TrackFile& file, const Radius& radius) {
            " not in the file" + (unused.size() == 1 ? "" : ", such as " + in_quotes(unused.front()));
 }
 
+mobb::Motion usual_motion(const TrackFile& file) { return file.alone ? mobb::Motion::held : kMotionOfTracks; }
+
 /// Frame numbers to seconds.
 class FrameClock {
   public:
+    /// Throws std::invalid_argument where the file does not tell its times, nor an option.
     FrameClock(const TrackFile& file, const ImportOptions& options) {
         first_ = file.tracks.front().points.front().frame;
         last_ = first_;
@@ -76,7 +79,8 @@ class FrameClock {
         }
         step_ = step ? *step : file.least_step ? *file.least_step : *options.dt;
         if (!file.timed) frame_time_ = options.dt;
-        rate_ = file.rate_of_steps ? file.rate * step_ : file.rate;
+        const double rate = file.fps_is_rate && options.fps ? *options.fps : file.rate.value_or(1);
+        rate_ = file.rate_of_steps ? rate * step_ : rate;
     }
 
     /// Dividing by the rate gives the nearest double, which multiplying by its inverse does not.
@@ -105,36 +109,84 @@ int line_out_of_step(std::span<const TrackPoint> points, double step, double rou
     return points.back().line;
 }
 
+/// What tables lack that an option has to say.
+void check_columns(const TrackFile& table, const std::string& file, const ImportOptions& options) {
+    if (table.header_line == 0) return;
+    const std::string header = at_line(table.header_line);
+    if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
+    // People have a usual radius.
+    if (!table.has_radius && !options.radius && table.alone)
+        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
+    if (!table.rate && !options.dt && !options.fps) {
+        throw InputError(file, header,
+                         "the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds "
+                         "from one frame to the next)");
+    }
+    if (table.alone && table.timed && table.tracks.front().points.size() == 1 && !options.dt) {
+        throw InputError(file, at_line(table.tracks.front().first_line()),
+                         "one row does not tell how long it lasts; give dt (seconds)");
+    }
+    if (!table.has_times && !options.dt)
+        throw InputError(file, header, "the header names no column t; name one or give dt (seconds between rows)");
+    if (options.unit == "auto")
+        throw InputError(file, "", "unit 'auto' does not apply to CSV; give m, cm, in or metres per file unit");
+}
+
+/// Throws InputError if an option is given that means something for skeletons alone.
+void refuse_skeleton_options(const TrackFile& tracks, const ImportOptions& options, const std::string& file) {
+    const auto refuse = [&](bool given, const char* option) {
+        if (given)
+            throw InputError(file, "",
+                             std::string(option) + " does not apply to " +
+                                 (tracks.header_line > 0 ? "CSV" : "trajectories") + "; leave it out");
+    };
+    refuse(options.animation.has_value(), "animation");
+    refuse(options.root.has_value(), "root");
+    refuse(options.up.has_value(), "up");
+}
+
+/// The options that are left when those that say what the rows hold are taken.
+ImportOptions rest_of(const TrackFile& file, ImportOptions options) {
+    if (file.header_line > 0 && options.radius && std::holds_alternative<RadiusColumn>(*options.radius))
+        options.radius.reset();
+    if (file.fps_is_rate) options.fps.reset();
+    return options;
+}
+
 class TrackClipMaker {
   public:
-    /// Refers to the file and the options.
+    /// Refers to the file.
     TrackClipMaker(const TrackFile& file, const ImportOptions& options)
-        : file_(file), options_(options), clock_(file, options), common_{file.format,  file.unit, 0,
-                                                                         std::nullopt, 0,         {}} {
-        common_.t0 = clock_.t0();
-        for (const std::string& warning : file.warnings) common_.warnings.push_back({warning});
+        : file_(file), options_(rest_of(file, options)), clock_(file, options), common_{file.format,  file.unit, 0,
+                                                                                        std::nullopt, 0,         {}} {
+        if (!file.alone) common_.t0 = clock_.t0();
+        common_.warnings = file.warnings;
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
         most_made_ = std::min(kMaxSamples, most_made(points));
         most_filled_ = most_made_;
-        if (!options.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
+        if (!options_.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {
             throw std::invalid_argument("its frames last " + brief(clock_.duration()) + " s, over " +
                                         format_double(mobb::kMaxTime) + "; check them");
         }
         if (file.timed) check_file_times(usual_step(), std::max(std::abs(clock_.t0()), std::abs(clock_.end())));
         if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
+        if (!file.has_times && !file.alone) {
+            common_.warnings.push_back({"the rows have no times: all tracks start together, with a row every " +
+                                        brief(frame_time()) + " s; name a column t if they do not"});
+        }
         if (options.unit && *options.unit != "auto") {
             common_.unit = *metres_per_unit(*options.unit);
         } else if (!file.unit_assumption.empty()) {
             common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
-        const std::string remark = options.radius    ? unused_radii(file, *options.radius)
+        const std::string remark = options_.radius   ? unused_radii(file, *options_.radius)
                                    : file.has_radius ? ""
                                                      : assumed_radius(file);
         if (!remark.empty()) common_.warnings.push_back({remark, "radius"});
-        if (options.trim && options.trim->second > clock_.duration() + clock_.seconds(clock_.usual_step())) {
+        if (options.trim && options.trim->second > clock_.duration() + usual_step()) {
             common_.warnings.push_back({"trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
                                             brief(clock_.duration()) + " s; all to the end is taken",
                                         "trim"});
@@ -145,10 +197,15 @@ class TrackClipMaker {
     double frame_time() const { return clock_.seconds(1); }
     double usual_step() const { return clock_.seconds(clock_.usual_step()); }
 
+    /// Whether the points of every track are whole steps apart.
+    bool is_in_step() const {
+        return std::ranges::all_of(file_.tracks, [this](const Track& track) { return grid_of(track).in_step; });
+    }
+
     /// Nothing if the track is not there in the time that is taken.
     std::optional<ImportedClip> make(const Track& track) {
         const std::span<const TrackPoint> points = track.points;
-        TrackGrid grid = grid_of(track, clock_.usual_step(), file_.rounding);
+        TrackGrid grid = grid_of(track);
         SourceFacts facts = common_;
         facts.label = track.label;
         facts.frames = static_cast<int>(points.size());
@@ -157,18 +214,21 @@ class TrackClipMaker {
         if (grid.in_step && !grid.has_gaps) facts.dt = clock_.seconds(grid.step);
         warn_of(points, grid, facts.warnings);
 
-        const bool resampled = !grid.in_step || (options_.fps && !file_.timed);
+        const bool resampled = !grid.in_step || (options_.fps && !has_samples());
         const double fps = options_.fps.value_or(kDefaultFps);
         const double dt = resampled ? 1 / fps : clock_.seconds(grid.step);
         if (resampled) grid.steps = sample_count(0, facts.duration, dt) - 1;
 
-        // The part that is taken.
-        const double start = clock_.time(points.front().frame);
+        // The part that is taken: samples `first` to `last` from `start` on.
+        double start = clock_.time(points.front().frame);
         double first = 0;
         double last = grid.steps;
         if (options_.trim) {
-            first = std::max(first, std::ceil((options_.trim->first - start) / dt - kFrameTolerance));
-            last = std::min(last, std::floor((options_.trim->second - start) / dt + kFrameTolerance));
+            const auto [from, to] = *options_.trim;
+            first = file_.alone ? 0 : std::max(first, std::ceil((from - start) / dt - kFrameTolerance));
+            last = file_.alone ? sample_count(from, std::min(to, facts.duration), dt) - 1
+                               : std::min(last, std::floor((to - start) / dt + kFrameTolerance));
+            if (file_.alone && from > facts.duration) return std::nullopt;
         }
         if (first > last) return std::nullopt;
         const std::size_t most = grid.has_gaps ? most_filled_ : resampled ? most_made_ : kMaxSamples;
@@ -179,8 +239,12 @@ class TrackClipMaker {
         const double radius = options_.radius    ? metres_of(*options_.radius, track.id, track.label)
                               : file_.has_radius ? 0
                                                  : default_radius(track);
-        std::vector<mobb::Disk> samples = resampled ? sampled(points, {first * dt, dt, std::size_t(last - first) + 1})
-                                                    : filled(points, grid.step, first, last);
+        // A motion begins where it is trimmed; tracks keep the moments of their samples.
+        const bool is_cut = file_.alone && options_.trim;
+        const double begin = is_cut ? options_.trim->first : first * dt;
+        std::vector<mobb::Disk> samples = resampled || is_cut
+                                              ? sampled(points, {begin, dt, std::size_t(last - first) + 1})
+                                              : filled(points, grid.step, first, last);
         for (mobb::Disk& disk : samples) {
             disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : radius};
         }
@@ -189,13 +253,22 @@ class TrackClipMaker {
 
         ImportedClip out;
         out.id = track.id;
-        out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
-        out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(kMotionOfTracks));
+        if (!file_.alone)
+            out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
+        out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(usual_motion(file_)));
         out.facts = std::move(facts);
         return out;
     }
 
   private:
+    /// Rows of times of their own, and rows without any, are the samples.
+    bool has_samples() const { return file_.timed || !file_.has_times; }
+
+    TrackGrid grid_of(const Track& track) const {
+        if (!file_.alone) return mobbscope::grid_of(track, clock_.usual_step(), file_.rounding);
+        return grid_of_all(track, clock_.usual_step(), file_.rounding);
+    }
+
     /// What is done to a track, or is not.
     void warn_of(std::span<const TrackPoint> points, const TrackGrid& grid,
                  std::vector<ImportWarning>& warnings) const {
@@ -208,11 +281,13 @@ class TrackClipMaker {
             warnings.push_back({"the times are not uniform; the path is resampled at " +
                                     brief(options_.fps.value_or(kDefaultFps)) + " fps",
                                 "fps", line});
-        } else if (options_.fps && file_.timed) {
+        } else if (options_.fps && has_samples()) {
             warnings.push_back({"fps does not apply: the rows are uniform in time and are the samples", "fps"});
         }
         if (options_.dt && file_.timed && points.size() > 1)
             warnings.push_back({"dt does not apply: the rows have times", "dt"});
+        if (file_.alone && points.size() == 1)
+            warnings.push_back({"there is one row: it holds for " + brief(clock_.seconds(grid.step)) + " s", "dt"});
     }
 
     bool has_radii() const { return file_.has_radius && !options_.radius; }
@@ -248,7 +323,7 @@ class TrackClipMaker {
     }
 
     const TrackFile& file_;
-    const ImportOptions& options_;
+    ImportOptions options_;  ///< see rest_of
     FrameClock clock_;
     SourceFacts common_;                     ///< what holds for every track
     std::size_t most_made_ = kMaxSamples;    ///< samples that the file may become by resampling
@@ -256,15 +331,37 @@ class TrackClipMaker {
     std::size_t count_ = 0;                  ///< samples made so far
 };
 
+/// The unit of files without a body: one that is taken, and the usual ones.
+OptionOffer unit_offer(double taken, const std::string& why) {
+    return {"unit", unit_word(taken), why, false, {{"m", "m"}, {"cm", "cm"}, {"0.001", "mm"}, {"in", "in"}}};
+}
+
 }  // namespace
 
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options) {
-    refuse_skeleton_options(options, file, "trajectories");
     const std::string name = file.string();
+    refuse_skeleton_options(tracks, options, name);
+    check_columns(tracks, name, options);
     TrackClipMaker maker = at_place(name, "", [&] { return TrackClipMaker(tracks, options); });
-    std::vector<ImportedClip> clips =
-        clips_by_track(tracks.tracks, file, options, [&](const Track& track) { return maker.make(track); });
+    std::vector<ImportedClip> clips;
+    bool found = false;
+    for (const Track& track : tracks.tracks) {
+        if (options.id && track.id != *options.id) continue;
+        found = true;
+        const std::string place = at_line(track.first_line()) + (tracks.alone ? "" : ", track " + in_quotes(track.id));
+        std::optional<ImportedClip> clip = at_place(name, place, [&] { return maker.make(track); });
+        if (!clip) continue;
+        clip->name = tracks.tracks.size() > 1 ? track.id : input_stem(file);
+        clips.push_back(std::move(*clip));
+    }
+    if (!found) {
+        std::vector<std::string> ids;
+        for (const Track& track : tracks.tracks) ids.push_back(track.id);
+        throw InputError(name, "",
+                         "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
+                             std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
+    }
     if (clips.empty()) {
         throw InputError(
             name, "",
@@ -275,23 +372,60 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
     return clips;
 }
 
-ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions&) {
-    const ImportOptions none;
-    const TrackClipMaker maker = at_place(file.string(), "", [&] { return TrackClipMaker(tracks, none); });
-    const std::string step = maker.usual_step() > 0 ? brief(1 / maker.usual_step()) + " points a second" : "points";
-    ImportOffer out{maker.duration(),
-                    {{"fps", maker.usual_step() > 0 ? format_double(1 / maker.usual_step()) : "", "as stored: " + step},
-                     unit_offer(tracks.unit, tracks.unit_assumption.empty() ? "as the file or its format says"
-                                                                            : tracks.unit_assumption),
-                     {"trim", "", "all of it, from the file's earliest row"},
-                     origin_offer()}};
-    if (tracks.tracks.size() > 1) out.options.push_back(id_offer(tracks.tracks));
-    const auto has_class = [](const Track& track) { return !track.label.empty(); };
-    const bool by_class = std::any_of(tracks.tracks.begin(), tracks.tracks.end(), has_class);
-    out.options.push_back({"radius", by_class ? "" : format_double(kDefaultTrackRadius), assumed_radius(tracks)});
-    out.options.push_back({"dt", format_double(maker.frame_time()),
-                           tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
-    out.options.push_back(motion_option_offer(kMotionOfTracks, "as usual of trajectories: points are far apart"));
+ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options) {
+    // Where the times are not known yet, any will do.
+    ImportOptions clock;
+    clock.dt = tracks.has_times ? options.dt : options.dt.value_or(1);
+    clock.fps = tracks.fps_is_rate ? options.fps : std::nullopt;
+    const bool alone = std::ranges::all_of(tracks.tracks, [](const Track& of) { return of.points.size() == 1; });
+    if (tracks.timed && alone && !clock.dt) clock.dt = 1;
+    const TrackClipMaker maker = at_place(file.string(), "", [&] { return TrackClipMaker(tracks, clock); });
+    const bool asks_rate = !tracks.rate && !options.dt && !options.fps;
+    ImportOffer out{asks_rate || (!tracks.has_times && !options.dt) ? 0 : maker.duration(), {}};
+    const double points_a_second = maker.usual_step() > 0 ? 1 / maker.usual_step() : 0;
+    const bool is_table = tracks.header_line > 0;
+    if (tracks.fps_is_rate && !options.dt) {
+        out.options.push_back({"fps", tracks.rate ? format_double(*tracks.rate) : "",
+                               tracks.rate ? "as a comment says" : "the file does not say its frames a second",
+                               !tracks.rate});
+    } else if (!maker.is_in_step()) {
+        out.options.push_back({"fps", format_double(kDefaultFps), "as usual; the rows are not uniform in time"});
+    } else if (!is_table) {
+        out.options.push_back({"fps", points_a_second > 0 ? format_double(points_a_second) : "",
+                               "as stored: " + (points_a_second > 0 ? brief(points_a_second) + " points a second"
+                                                                    : std::string("points"))});
+    }
+    out.options.push_back(unit_offer(tracks.unit, !tracks.unit_assumption.empty() ? tracks.unit_assumption
+                                                  : is_table                      ? "as usual of CSV files"
+                                                                                  : "as the file or its format says"));
+    if (out.seconds > 0) out.options.push_back({"trim", "", "all of it, from the file's earliest row"});
+    out.options.push_back(origin_offer());
+    if (tracks.tracks.size() > 1) {
+        OptionOffer& ids =
+            out.options.emplace_back(OptionOffer{"id", "", "the file has several tracks: name one", true});
+        for (const Track& track : tracks.tracks) ids.choices.push_back({track.id, track.id});
+    }
+    const bool by_class = std::ranges::any_of(tracks.tracks, [](const Track& of) { return !of.label.empty(); });
+    const bool has_usual = !tracks.has_radius && !tracks.alone;
+    OptionOffer& radius =
+        out.options.emplace_back(OptionOffer{"radius", has_usual && !by_class ? format_double(kDefaultTrackRadius) : "",
+                                             has_usual           ? assumed_radius(tracks)
+                                             : tracks.has_radius ? "the column r"
+                                                                 : "the file has no column r",
+                                             !tracks.has_radius && tracks.alone});
+    for (const std::string& name : tracks.others) radius.choices.push_back({name, "the column " + name});
+    if (!tracks.has_times || (tracks.timed && alone)) {
+        out.options.push_back(
+            {"dt", "", tracks.timed ? "one row does not tell how long it lasts" : "the file has no column t", true});
+    } else if (!is_table) {
+        out.options.push_back(
+            {"dt", format_double(maker.frame_time()),
+             tracks.rate_assumption.empty() ? "as the file or its format says" : tracks.rate_assumption});
+    }
+    if (is_table) out.options.push_back({"columns", "", "by their names"});
+    out.options.push_back(motion_option_offer(usual_motion(tracks), tracks.alone
+                                                                        ? "as usual of tables without ids"
+                                                                        : "as usual of tracks: points are far apart"));
     return out;
 }
 

@@ -124,6 +124,14 @@ std::optional<double> most_frequent_step(std::span<const Track> tracks, double r
     return common_step(best, largest);
 }
 
+TrackGrid grid_of_all(const Track& track, double usual, double rounding) {
+    const std::span<const TrackPoint> points = track.points;
+    if (points.size() == 1) return {0, usual};
+    const auto rows = static_cast<double>(points.size() - 1);
+    const double step = (points.back().frame - points.front().frame) / rows;
+    return {rows, step, steps_in(points, step, rounding) == rows};
+}
+
 TrackGrid grid_of(const Track& track, double usual, double rounding) {
     const std::span<const TrackPoint> points = track.points;
     if (points.size() == 1) return {0, usual};

@@ -24,6 +24,9 @@ struct TrackGrid {
 /// whatever the file's step; other tracks have the file's step if it suits them, else their own most frequent one.
 TrackGrid grid_of(const Track& track, double usual, double rounding = 0);
 
+/// Likewise where what is not evenly spaced as a whole is out of step.
+TrackGrid grid_of_all(const Track& track, double usual, double rounding = 0);
+
 /// From one point to the next: at least one step.
 double steps_between(const TrackPoint& a, const TrackPoint& b, double step);
 

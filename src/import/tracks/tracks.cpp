@@ -46,18 +46,4 @@ std::string_view take_row(std::string_view& text) {
     return "";
 }
 
-OptionOffer unit_offer(double taken, const std::string& why) {
-    return {"unit", unit_word(taken), why, false, {{"m", "m"}, {"cm", "cm"}, {"0.001", "mm"}, {"in", "in"}}};
-}
-
-void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what) {
-    const auto refuse = [&](bool given, const char* option) {
-        if (given)
-            throw InputError(file.string(), "", std::string(option) + " does not apply to " + what + "; leave it out");
-    };
-    refuse(options.animation.has_value(), "animation");
-    refuse(options.root.has_value(), "root");
-    refuse(options.up.has_value(), "up");
-}
-
 }  // namespace mobbscope

@@ -50,10 +50,13 @@ struct TrackFile {
     std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "jupedsim", "sdd", "mapf", "csv"
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
-    bool timed = false;          ///< the points have times in seconds in place of frame numbers; rate is 1
-    double rounding = 0;         ///< seconds: what all of those times are rounded to; 0: that is not known
-    double rate = 1;             ///< frames per second, see rate_of_steps
-    bool rate_of_steps = false;  ///< the rate counts usual steps from point to point, not frame numbers
+    bool alone = false;              ///< the file has no ids: its one track is a motion that is held, and nobody's
+    bool timed = false;              ///< the points have times in seconds in place of frame numbers; rate is 1
+    bool has_times = true;           ///< else they are numbered, and dt must say how far they are apart
+    double rounding = 0;             ///< seconds: what all of those times are rounded to; 0: that is not known
+    std::optional<double> rate = 1;  ///< frames per second, see rate_of_steps; none: fps or dt must say it
+    bool rate_of_steps = false;      ///< the rate counts usual steps from point to point, not frame numbers
+    bool fps_is_rate = false;        ///< the option fps says the rate, and resamples nothing
     /// Frames between points, where no track has two; none: then dt must say it.
     std::optional<double> least_step = 1;
     std::string rate_assumption{};
@@ -61,11 +64,23 @@ struct TrackFile {
     bool has_radius = false;  ///< the points have radii, in file units
 
     double unit = 1;                         ///< metres per file unit
+    bool in_pixels = false;                  ///< of an image, which tell no metres
     std::optional<double> guessed_height{};  ///< metres: how high the heads are, where that decided the unit
     std::string unit_assumption{};
 
-    std::vector<std::string> warnings{};  ///< what was ignored, one sentence each
-    Spent spent{};                        ///< of the budget
+    std::vector<ImportWarning> warnings{};  ///< what was ignored
+    Spent spent{};                          ///< of the budget
+
+    // Of tables:
+    int header_line = 0;                ///< from 1; 0: there is no header
+    std::vector<std::string> others{};  ///< names of columns that were ignored, each once
+};
+
+/// What the documents say of a format of tracks.
+struct FormatNote {
+    std::string_view who;      ///< "TrajNet (`.txt`)"
+    std::string_view columns;  ///< or keys
+    std::string_view assumed;  ///< where neither the file nor an option says it
 };
 
 /// Largest frame number taken; beyond it doubles no longer tell whole numbers apart.
@@ -109,15 +124,6 @@ class TrackCollector {
 /// Takes the next line off a text that is neither blank nor a comment, without the blanks at its ends; "" at the end.
 std::string_view take_row(std::string_view& text);
 
-/// Whether a text begins like one of those that parse_text_tracks reads: rows of numbers between blanks.
-bool looks_like_text_tracks(std::string_view text);
-
-/// Text, told apart by its content: UCY and ETH `obsmat` (frame id x z y vx vz vy), TrajNet (frame ped x y), PeTrack
-/// and JuPedSim's text (id frame x y z, or as a comment names the columns, semi-axes a and b among them), SDD (id xmin
-/// ymin xmax ymax frame lost occluded generated "label"). `file` stands for the file in messages. Throws InputError
-/// naming the line.
-TrackFile parse_text_tracks(std::string_view text, const std::string& file);
-
 /// Whether a text begins like TrajNet++.
 bool looks_like_trajnetpp(std::string_view text);
 
@@ -147,46 +153,8 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
 
-/// What a file has for each option; see ParsedFile::offer (import/import.h).
+/// Without ids the one track is a motion: held, uniform in time or resampled as a whole (trim takes a part before
+/// that), and of no common clock. What a file has for each option; see ParsedFile::offer (import/import.h).
 ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options);
-
-/// The unit of files without a body: one that is taken, and the usual ones.
-OptionOffer unit_offer(double taken, const std::string& why);
-
-/// Which of several tracks.
-template <class Tracks>
-OptionOffer id_offer(const Tracks& tracks) {
-    OptionOffer out{"id", "", "the file has several tracks: name one", true};
-    for (const auto& track : tracks) out.choices.push_back({track.id, track.id});
-    return out;
-}
-
-/// Throws InputError if an option is given that means something for skeletons alone. `what`: the file's kind.
-void refuse_skeleton_options(const ImportOptions& options, const std::filesystem::path& file, const std::string& what);
-
-/// What `make` makes of each track, or of the one that options.id names; it may leave tracks out, and the
-/// std::invalid_argument that it throws names the track. Throws InputError if there is no such track.
-template <class Tracks, class Make>
-std::vector<ImportedClip> clips_by_track(const Tracks& tracks, const std::filesystem::path& file,
-                                         const ImportOptions& options, const Make& make) {
-    std::vector<ImportedClip> clips;
-    std::vector<std::string> ids;
-    bool found = false;
-    for (const auto& track : tracks) {
-        ids.push_back(track.id);
-        if (options.id && track.id != *options.id) continue;
-        found = true;
-        const std::string place =
-            at_line(track.first_line()) + (track.id.empty() ? "" : ", track " + in_quotes(track.id));
-        std::optional<ImportedClip> clip = at_place(file.string(), place, [&] { return make(track); });
-        if (!clip) continue;
-        clip->name = tracks.size() > 1 ? track.id : input_stem(file);
-        clips.push_back(std::move(*clip));
-    }
-    if (found) return clips;
-    throw InputError(file.string(), "",
-                     "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
-                         std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
-}
 
 }  // namespace mobbscope

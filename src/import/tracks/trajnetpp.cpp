@@ -35,8 +35,8 @@ class TrajnetppParser {
                 "no scene says its fps: 2.5 points a second are assumed; give dt (seconds a frame) if that is wrong";
         }
         if (predictions_ > 0) {
-            out.warnings.push_back(counted(predictions_, "predicted point is", "predicted points are") +
-                                   " ignored; only what was recorded is used");
+            out.warnings.push_back({counted(predictions_, "predicted point is", "predicted points are") +
+                                    " ignored; only what was recorded is used"});
         }
         return out;
     }

@@ -1,0 +1,153 @@
+#include <base/text.h>
+#include <import/clip/sample_times.h>
+#include <import/clip/sampling.h>
+#include <import/tracks/rows.h>
+#include <mobb/clip.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mobbscope {
+
+double RowReader::value(const Cells& cells, Column column, double largest) const {
+    const std::optional<ColumnFormula>& made = (*this)[column];
+    if (!made) return 0;
+    const double value = made->of([&cells](std::size_t at) { return cells.number(at); });
+    if (std::abs(value) <= largest) return value;
+    const std::vector<std::size_t> from = made->columns();
+    const std::size_t place = from.empty() ? 0 : from.front();
+    if (made->only_column())
+        cells.fail(place, in_quotes(cells.text(place)) + " is beyond " + format_double(largest) + "; check the units");
+    cells.fail(place, std::string(name(column)) + " becomes " + brief(value) + ", which is not a number up to " +
+                          format_double(largest) + "; check the " + (from.empty() ? "option columns" : "units"));
+}
+
+double RowReader::whole(const Cells& cells, Column column) const {
+    const double value = this->value(cells, column, kMaxFrame);
+    if (value == std::floor(value)) return value;
+    const std::size_t place = (*this)[column]->columns().front();
+    cells.fail(place, in_quotes(cells.text(place)) + " is not a whole number, as ids and frames of this format (" +
+                          std::string(whole_in) + ") are; check the columns");
+}
+
+double RowReader::when(const Cells& cells) const {
+    if (!has(Column::frame)) return value(cells, Column::t, mobb::kMaxTime);
+    return whole_in.empty() ? value(cells, Column::frame, kMaxFrame) : whole(cells, Column::frame);
+}
+
+double RowReader::radius(const Cells& cells) const {
+    double largest = value(cells, Column::r, mobb::kMaxLength);
+    std::size_t place = axes.empty() ? 0 : axes.front();
+    if (has(Column::r) && !(*this)[Column::r]->columns().empty()) place = (*this)[Column::r]->columns().front();
+    bool negative = largest < 0;
+    for (const std::size_t axis : axes) {
+        const double length = cells.number(axis);
+        negative = negative || length < 0;
+        largest = std::max(largest, length);
+    }
+    if (negative) cells.fail(place, "the radius is negative; give 0 or more");
+    if (largest > mobb::kMaxLength)
+        cells.fail(place, brief(largest) + " is beyond " + format_double(mobb::kMaxLength) + "; check the units");
+    return largest;
+}
+
+std::string_view RowReader::identifier(const Cells& cells) {
+    if (!has(Column::id)) return {};
+    if (!whole_in.empty()) {
+        const double id = whole(cells, Column::id);
+        if (id != id_) {
+            id_ = id;
+            id_text_ = std::to_string(static_cast<long long>(id));
+        }
+        return id_text_;
+    }
+    const std::size_t place = *(*this)[Column::id]->only_column();
+    const std::string_view text = cells.text(place);
+    if (text.empty()) cells.fail(place, "the field is empty; name the track");
+    if (!is_utf8(text)) cells.fail(place, "the name is not UTF-8 text; save the file as UTF-8");
+    return text;
+}
+
+std::string_view RowReader::label(const Cells& cells) const {
+    if (!has(Column::label)) return {};
+    const std::size_t place = *(*this)[Column::label]->only_column();
+    const std::string_view text = cells.text(place);
+    if (!is_utf8(text)) cells.fail(place, "the label is not UTF-8 text; save the file as UTF-8");
+    return text;
+}
+
+bool RowReader::is_left_out(const Cells& cells) {
+    const auto is_set = [&](Column column) {
+        const std::string_view text = cells.text(*(*this)[column]->only_column());
+        return text != "0" && text != "0.0" && text != "false" && text != "False" && text != "FALSE" && !text.empty();
+    };
+    if ((has(Column::lost) && is_set(Column::lost)) || (has(Column::active) && !is_set(Column::active))) {
+        ++lost_;
+        return true;
+    }
+    // One motion has no gaps.
+    if (!has(Column::id)) return false;
+    for (const Column column : {Column::x, Column::y}) {
+        for (const std::size_t place : (*this)[column]->columns()) {
+            if (!cells.is_empty(place)) continue;
+            if (empty_++ == 0) first_empty_ = cells.line();
+            return true;
+        }
+    }
+    return false;
+}
+
+void RowReader::check_order(const Cells& cells, double time) const {
+    if (time > last_) return;
+    const std::vector<std::size_t> from = (*this)[has(Column::frame) ? Column::frame : Column::t]->columns();
+    cells.fail(from.empty() ? 0 : from.front(),
+               time_word() + " does not come after " + format_double(last_) +
+                   " of the row before; sort the rows and remove doubles" +
+                   (time == last_ && !has(Column::frame) ? rounded_time_hint(time) : "") + order_hint);
+}
+
+void RowReader::add(const Cells& cells) {
+    if (is_left_out(cells)) return;
+    const std::string_view id = identifier(cells);
+    const double time = when(cells);
+    const TrackPoint point{time, value(cells, Column::x, mobb::kMaxLength), value(cells, Column::y, mobb::kMaxLength),
+                           cells.line(), radius(cells)};
+    in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(time);
+    // Tracks may lie across each other in any order, the rows of one motion may not.
+    if (!has(Column::id) && has_times() && !tracks_.empty()) check_order(cells, time);
+    last_ = time;
+    tracks_.add(id, point, label(cells));
+}
+
+TrackFile RowReader::finish() {
+    TrackFile out;
+    out.alone = !has(Column::id);
+    out.timed = has(Column::t);
+    out.has_times = has_times();
+    out.has_radius = has(Column::r) || !axes.empty();
+    if (out.timed && in_milliseconds_) out.rounding = kMillisecond;
+    if (out.timed) out.least_step.reset();
+    const auto twice = [&](const Track& track, const TrackPoint& row) {
+        return time_word() + ' ' + format_double(row.frame) + (out.timed ? rounded_time_hint(row.frame) : "") +
+               " of track " + in_quotes(track.id) + " stands already in line ";
+    };
+    out.tracks = !out.alone && out.has_times ? tracks_.take_sorted(twice) : tracks_.take();
+    if (!out.has_times) {
+        for (Track& track : out.tracks) {
+            for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);
+        }
+    }
+    out.spent = tracks_.take_spent();
+    if (lost_ > 0) {
+        out.warnings.push_back({counted(lost_, "row is", "rows are") + " marked as lost or not active and left out"});
+    }
+    if (empty_ > 0) {
+        out.warnings.push_back(
+            {counted(empty_, "row has", "rows have") + " no place and are left out; fill x and y in if they count", "",
+             first_empty_});
+    }
+    return out;
+}
+
+}  // namespace mobbscope

@@ -1,0 +1,86 @@
+/// The one reader of rows: cells of text and of databases become points of tracks.
+#pragma once
+
+#include <import/clip/column_choice.h>
+#include <import/tracks/tracks.h>
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mobbscope {
+
+/// The cells of the row in hand, by column, from 0.
+class Cells {
+  public:
+    virtual ~Cells() = default;
+
+    virtual double number(std::size_t column) const = 0;  ///< throws InputError if it holds none
+    virtual std::string_view text(std::size_t column) const = 0;
+    virtual bool is_empty(std::size_t column) const = 0;      ///< holds nothing, "nan" or "?"
+    virtual int line() const = 0;                             ///< or row, from 1
+    virtual std::string place(std::size_t column) const = 0;  ///< of the cell: "line 3, column 2 (y)"
+
+    /// Throws InputError.
+    [[noreturn]] void fail(std::size_t column, const std::string& message) const {
+        throw InputError(file_, place(column), message);
+    }
+
+  protected:
+    /// `file` stands for the file in messages, and must outlive this.
+    explicit Cells(const std::string& file) : file_(file) {}
+
+    const std::string& file_;
+};
+
+/// Makes points of rows. Say which columns are which, then add row by row.
+class RowReader {
+  public:
+    /// `file` stands for the file in messages, and must outlive this.
+    explicit RowReader(const std::string& file) : tracks_(file) {}
+
+    std::optional<ColumnFormula>& operator[](Column column) { return formulas_[static_cast<std::size_t>(column)]; }
+    const std::optional<ColumnFormula>& operator[](Column column) const {
+        return formulas_[static_cast<std::size_t>(column)];
+    }
+
+    /// Throws InputError naming the row and the column.
+    void add(const Cells& cells);
+    bool empty() const { return tracks_.empty(); }
+    /// "the frame" or "the time".
+    std::string time_word() const { return has(Column::frame) ? "the frame" : "the time"; }
+
+    /// Tracks, what kind of times they have, and what was left out. Where there is an id they come in any order.
+    TrackFile finish();
+
+    std::string_view whole_in{};      ///< a format whose ids and frames are whole numbers; empty: any text is an id
+    std::vector<std::size_t> axes{};  ///< columns of semi-axes: the radius is the largest of them and of r
+    std::string order_hint{};         ///< ends the message that rows without ids are not in order
+
+  private:
+    bool has(Column column) const { return (*this)[column].has_value(); }
+    bool has_times() const { return has(Column::t) || has(Column::frame); }
+    bool is_left_out(const Cells& cells);
+    double value(const Cells& cells, Column column, double largest) const;
+    double whole(const Cells& cells, Column column) const;
+    double when(const Cells& cells) const;
+    double radius(const Cells& cells) const;
+    std::string_view identifier(const Cells& cells);
+    std::string_view label(const Cells& cells) const;
+    void check_order(const Cells& cells, double time) const;
+
+    std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
+    TrackCollector tracks_;
+    double last_ = 0;              ///< the time or frame of the last row
+    bool in_milliseconds_ = true;  ///< all times
+    std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
+    std::string id_text_{};
+    std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
+    int first_empty_ = 0;               ///< line
+};
+
+}  // namespace mobbscope
