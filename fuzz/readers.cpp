@@ -156,7 +156,8 @@ void read_tracks(const FileReader& reader, const std::string& bytes) {
     const ImportOptions options = some_options(bytes, reader.contents);
     InputBytes input;
     input.bytes = bytes;
-    const ParsedFile parsed = reader.parse("fuzz", std::move(input));
+    // What lies beside a file does so beside the folder of seeds.
+    const ParsedFile parsed = reader.parse(kSeedFolder / reader.name, std::move(input));
     parsed.offer(options);
     use_clips(parsed.clips(options));
 }

@@ -290,7 +290,11 @@ std::span<const Target> targets() {
         for (const FileReader* reader : file_readers()) {
             if (reader->contents == Contents::skeletons) continue;
             const bool is_database = reader->name == "jupedsim";
-            out.push_back({reader->name, is_database ? Form::sqlite : Form::lines,
+            const bool is_json = reader->name == "robot-runners";
+            out.push_back({reader->name,
+                           is_database ? Form::sqlite
+                           : is_json   ? Form::json
+                                       : Form::lines,
                            [reader](const std::string& bytes) { read_tracks(*reader, bytes); },
                            is_database             ? sqlite_seeds
                            : reader->name == "csv" ? csv_seeds

@@ -255,6 +255,41 @@ JsonText parse_json(std::string_view text, const std::string& file) {
     return builder.take();
 }
 
+bool JsonHead::has_any(std::initializer_list<std::string_view> names) const {
+    return std::ranges::any_of(
+        keys, [&](const JsonKey& key) { return key.in.empty() && std::ranges::find(names, key.name) != names.end(); });
+}
+
+JsonHead json_head(std::string_view text) {
+    JsonHead out;
+    const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+    if (first == std::string_view::npos || text[first] != '{') return out;
+    int depth = 0;
+    std::string_view in;      // the key at depth 1 that what stands here belongs to
+    std::string_view string;  // the last one
+    for (std::size_t i = first; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') {
+            const std::size_t begin = i + 1;
+            for (++i; i < text.size() && text[i] != '"'; ++i) {
+                if (text[i] == '\\') ++i;
+            }
+            string = text.substr(begin, i - begin);
+        } else if (c == '{' || c == '[') {
+            ++depth;
+        } else if (c == '}' || c == ']') {
+            --depth;
+        } else if (c == ':' && depth == 1) {
+            in = string;
+            out.keys.push_back({in});
+        } else if (c == ':' && depth == 2) {
+            out.keys.push_back({string, in});
+        }
+    }
+    out.cut_off = depth > 0;
+    return out;
+}
+
 std::string JsonPlace::pointer() const {
     if (!parent_) return "";
     return parent_->pointer() + (key_ ? pointer_token(*key_) : "/" + std::to_string(index_));

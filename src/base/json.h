@@ -90,6 +90,24 @@ std::string pointer_token(std::string_view key);
 /// all of it takes more than the budget (base/budget.h).
 JsonText parse_json(std::string_view text, const std::string& file);
 
+/// A key of the outermost object of a JSON text, or of an object right below it.
+struct JsonKey {
+    std::string_view name;
+    std::string_view in{};  ///< the key of the object that it stands in; empty: the outermost
+};
+
+/// What a text that may be JSON begins with, unparsed and unchecked: for telling formats apart.
+struct JsonHead {
+    std::vector<JsonKey> keys{};  ///< none where the text does not begin with an object
+    bool cut_off = false;         ///< the text ends within its object
+
+    /// Whether one of these stands in the outermost object.
+    bool has_any(std::initializer_list<std::string_view> names) const;
+};
+
+/// Refers to the text.
+JsonHead json_head(std::string_view text);
+
 /// The most that JsonPlace::integer can give.
 inline constexpr int kMaxInt = std::numeric_limits<int>::max();
 

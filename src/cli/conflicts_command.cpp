@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,15 +32,33 @@ struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
 };
 
-/// The crowd of a scene: its agents, or the people of a run; a CSV without ids is somebody alone.
+/// Whether the clips of a motion file are of several characters. Throws InputError if one of them has several.
+bool has_performers(const Scene& scene) {
+    std::set<std::string> roots;
+    std::string twice;
+    for (const SceneClip& clip : scene.clips) {
+        // Of several characters each clip says by its root whose it is.
+        if (!clip.options.root) return false;
+        if (!roots.insert(*clip.options.root).second) twice = *clip.options.root;
+    }
+    if (roots.size() > 1 && !twice.empty()) {
+        throw InputError(scene.file, "",
+                         "has several animations of " + in_quotes(twice) +
+                             ", who cannot be in two at one time; choose one with --animation");
+    }
+    return roots.size() > 1;
+}
+
+/// The crowd of a scene: its agents, the people of a run, or the characters of a motion file; a CSV without ids is
+/// somebody alone.
 Scene crowd_in(Scene scene, const ConflictsCommandArguments& arguments) {
     if (scene.crowd) return scene_of_people(scene);
-    if (!is_scene_file(arguments.file) && scene.agents.empty() && scene.clips.front().facts.format == "csv")
-        add_agents_for_clips(scene);
+    const bool is_clips = !is_scene_file(arguments.file) && scene.agents.empty();
+    if (is_clips && (scene.clips.front().facts.format == "csv" || has_performers(scene))) add_agents_for_clips(scene);
     if (scene.agents.empty())
         throw InputError(arguments.file,
-                         "there are no agents who could meet; give a scene with agents, "
-                         "trajectories or a CSV with ids");
+                         "there are no agents who could meet; give a scene with agents, trajectories, a CSV with ids "
+                         "or a motion of several characters");
     return scene;
 }
 
@@ -106,7 +125,12 @@ struct Findings {
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
     /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
-    std::optional<double> t0() const { return is_scene_file(scene.file) ? std::nullopt : scene.clips.front().facts.t0; }
+    std::optional<double> t0() const {
+        const SceneClip& clip = scene.clips.front();
+        if (is_scene_file(scene.file) || !clip.facts.t0) return std::nullopt;
+        // Of takes each has its own.
+        return *clip.facts.t0 - (clip.options.id ? 0 : clip.start);
+    }
     int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 

@@ -101,7 +101,9 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& commo
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     if (!facts.label.empty()) std::cout << "  class        " << in_quotes(facts.label) << '\n';
-    if (facts.t0) {
+    if (!clip.options.id && facts.t0.value_or(0) != 0) {
+        std::cout << "  begins       at " << format_double(*facts.t0) << " s in the file, its first key\n";
+    } else if (clip.options.id && facts.t0) {
         std::cout << "  there        from " << brief(clip.start) << " to " << brief(clip.start + clip.clip->duration())
                   << " s; 0 is " << format_double(*facts.t0) << " s in the file\n";
     }

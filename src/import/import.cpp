@@ -11,7 +11,9 @@
 #include <import/nodes/gltf_file.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
+#include <import/tracks/logs.h>
 #include <import/tracks/mapf_plan.h>
+#include <import/tracks/sumo.h>
 #include <import/tracks/text_rows.h>
 #include <import/tracks/tracks.h>
 
@@ -108,6 +110,45 @@ constexpr FileReader kTextPlan{"mapf-text-plan",
                                 "a line a step: `3:(x,y),(x,y),`, below `solution=` or alone; or a line an agent: "
                                 "`Agent 0: (row,column)->(row,column)->`",
                                 "the same; of a line an agent x is the column, y the row (a warning says so)"}};
+constexpr FileReader kRobotRunners{"robot-runners",
+                                   parse_once<parse_robot_runners, track_clips, track_offer>,
+                                   Contents::trajectories,
+                                   looks_like_robot_runners,
+                                   {"plans of Robot Runners (`.json`)",
+                                    "`start`: [row, column, heading] of each robot; `actualPaths`, else "
+                                    "`plannerPaths`: its actions, `F,R,C,W` or `R,D,L,U,W`",
+                                    "one cell a metre, one step a second; x is the column, y the row"}};
+constexpr FileReader kTrackerPlan{
+    "mapf-tracker",
+    parse_once<parse_mapf_tracker, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_mapf_tracker,
+    {"plans of the MAPF tracker (`.csv`)",
+     "one row, whose `solution_plan` or `path` has a line of moves `u`, `d`, `l`, `r`, `w` for each agent; the "
+     "scenario with their starts lies beside it, `MAP-TYPE-ID.scen`",
+     "the same"}};
+constexpr FileReader kCcbsPlan{"ccbs",
+                               parse_once<parse_ccbs_plan, track_clips, track_offer>,
+                               Contents::trajectories,
+                               looks_like_ccbs_plan,
+                               {"logs of Continuous-CBS (`.xml`)",
+                                "sections of each agent's path, with their durations", "the same; time is continuous"}};
+constexpr FileReader kSumo{
+    "sumo",
+    parse_once<parse_sumo, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_sumo,
+    {"SUMO's floating car data (`.xml`, `.csv`)",
+     "vehicles, persons and containers of each timestep; who rides in a vehicle is left out", "metres"}};
+constexpr FileReader kLog{
+    "log",
+    parse_once<parse_log, track_clips, track_offer>,
+    Contents::trajectories,
+    looks_like_log,
+    {"robots' poses: TUM, KITTI (`.txt`), EuRoC, exports of ROS bags (`.csv`); VISSIM, Viswalk (`.fzp`, `.pp`)",
+     "t x y z qx qy qz qw; a matrix of twelve numbers; a header with `p_RS_R_x` or `pose.position.x`; `$VEHICLE:` or "
+     "`$PEDESTRIAN:` with SIMSEC, NO and CoordFront, or CoordCentX and CoordCentY",
+     "metres; without ids one robot; of KITTI 10 poses a second"}};
 constexpr FileReader kTable{"csv",
                             parse_once<read_table, table_clips, table_offer>,
                             Contents::table,
@@ -118,8 +159,9 @@ constexpr FileReader kTextTracks{"text-tracks", parse_once<parse_text_tracks, tr
                                  Contents::trajectories, looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim, &kBvh,      &kFbx,   &kGltf,      &kTrajnetpp,
-                                            &kMapfPlan, &kTextPlan, &kTable, &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,      &kFbx,      &kGltf,        &kTrajnetpp,
+                                            &kRobotRunners, &kMapfPlan, &kTextPlan, &kTrackerPlan, &kCcbsPlan,
+                                            &kSumo,         &kLog,      &kTable,    &kTextTracks};
 
 struct Format {
     std::string_view extension;
@@ -140,6 +182,7 @@ constexpr Format kFormats[] = {
     {".ndjson", &kTrajnetpp},
     {".yaml", &kMapfPlan},
     {".yml", &kMapfPlan, false},
+    {".xml", &kSumo},
     {".sqlite", &kJupedsim},
     {".sqlite3", &kJupedsim, false},
     {".db", &kJupedsim, false},

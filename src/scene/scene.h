@@ -45,7 +45,7 @@ struct SceneClip {
     mobb::ClipPtr clip;                          ///< never null in a loaded scene
     SourceFacts facts{};                         ///< of the source; of inline samples the warnings alone
     std::shared_ptr<const Skeleton> skeleton{};  ///< null where the source has no joints, or too many samples for them
-    double start = 0;  ///< seconds: when it starts among the tracks of its source, see SourceFacts::t0
+    double start = 0;  ///< seconds: when it starts among the tracks or takes of its source, see ImportedClip
     std::shared_ptr<const ClipWarp> warp{};  ///< of a part of a motion: `clip` and `skeleton` are warped; null: not
     std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
     /// Of inline samples of a capture: mobb::digest of what was captured; none: nobody says. See kDigest.

@@ -183,7 +183,8 @@ std::string UnusedNames::take_numbered(const std::string& stem, int last) {
 void add_agents_for_clips(Scene& scene) {
     if (!scene.agents.empty()) return;
     for (int clip = 0; clip < static_cast<int>(scene.clips.size()); ++clip) {
-        scene.agents.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, {}});
+        const SceneClip& of = scene.clips[static_cast<std::size_t>(clip)];
+        scene.agents.push_back({of.name, clip, {.start = of.start}, {}});
     }
 }
 

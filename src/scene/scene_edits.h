@@ -32,7 +32,8 @@ class UnusedNames {
     std::unordered_map<std::string, int> last_number_;  ///< up to which all that are wanted are taken
 };
 
-/// A scene without agents gets one for every clip, where it is: what was seen of it is then agents.
+/// A scene without agents gets one for every clip, where it is and when its track or take starts: what was seen of it
+/// is then agents.
 void add_agents_for_clips(Scene& scene);
 
 /// The agent's clip placed elsewhere. Its queries follow; traces recorded of them are dropped, expectations stay.

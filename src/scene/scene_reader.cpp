@@ -6,6 +6,7 @@
 #include <import/clip/held_steps.h>
 #include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
+#include <import/foreign_files.h>
 #include <import/import.h>
 #include <mobb/capture.h>
 #include <scene/arrangement.h>
@@ -209,15 +210,24 @@ MovingPose read_pose(const JsonPlace& place) {
     return pose;
 }
 
+constexpr std::string_view kSceneKeys[] = {"$schema", "mobbscope", "poses",   "clips", "graph", "crowd",
+                                           "agents",  "fit",       "queries", "debug", "view"};
+
 class SceneReader {
   public:
     SceneReader(const JsonPlace& root, std::filesystem::path folder, const ImportOptions& overrides,
                 const Progress& progress, Importer& importer)
         : root_(root), folder_(std::move(folder)), overrides_(overrides), progress_(progress), importer_(importer) {}
 
+    /// Whether a text is meant to be a scene: no list, and no object without any of a scene's keys.
+    static bool may_be(const JsonPlace& root) {
+        if (!root.is_object()) return !root.is_array();
+        return root.members() == 0 ||
+               std::ranges::any_of(kSceneKeys, [&](std::string_view key) { return root.find(key).has_value(); });
+    }
+
     Scene read() {
-        root_.allow_only(
-            {"$schema", "mobbscope", "poses", "clips", "graph", "crowd", "agents", "fit", "queries", "debug", "view"});
+        root_.allow_only(kSceneKeys);
         check_version();
         if (const auto poses = root_.find("poses")) {
             for (int i = 0; i < poses->members(); ++i) {
@@ -557,7 +567,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
         if (!imported.root.empty()) clip.options.root = imported.root;
         name_own_radius(clip);
-        if (clip.facts.t0) {
+        if (!imported.id.empty()) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
         }
@@ -570,8 +580,11 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
 }  // namespace
 
 bool is_scene_file(const std::filesystem::path& file) {
-    // A file may be called like a link to a step.
-    if (!is_standard_input(file)) return unpacked_extension(without_link(file)) == ".json";
+    if (!is_standard_input(file)) {
+        // A file may be called like a link to a step, and what is no scene like one.
+        const std::filesystem::path plain = without_link(file);
+        return unpacked_extension(plain) == ".json" && !contents_of(plain);
+    }
     constexpr std::size_t kHead = 100;  // bytes
     const std::string begin = read_beginning(file, kHead);
     const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
@@ -594,6 +607,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
                   const ImportOptions& overrides, const Progress& progress, Importer* importer) {
     const JsonText value = parse_json(text, name);
     const JsonPlace root(value, name);
+    if (!SceneReader::may_be(root)) throw InputError(name, "", foreign_kind(text).value_or("is no scene"));
     Importer own;
     return SceneReader(root, folder, overrides, progress, importer ? *importer : own).read();
 }

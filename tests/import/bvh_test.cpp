@@ -52,6 +52,47 @@ TEST(Bvh, PosesFollowOffsetsAndRotations) {
     expect_near(pose(kWalker, 1)[3], 10, 0, 30);
 }
 
+TEST(Bvh, DecimalsMayHaveCommas) {
+    std::string text = replaced(kWalker, "0 95 30 0 0 0 0", "0,5 95,25 30,0 0 -0,0 +0,0 0e0");
+    text = replaced(text, "OFFSET 0 75 50", "OFFSET 0,0 75,5 50");
+    text = replaced(text, "Frame Time: 0.1", "Frame Time: 0,1");
+    expect_near(pose(text, 0)[1], 0.5, 170.75, 80);
+    const BvhData data = parse_bvh(text, kFile);
+    EXPECT_EQ(data.frame_time, 0.1);
+    EXPECT_EQ(data.warnings.at(0), "commas within numbers are read as decimal points: 0,5 is a half");
+}
+
+TEST(Bvh, RowsMayGoOverLines) {
+    const BvhData rows = parse_bvh(kWalker, kFile);
+    for (const char* parted : {"0 95 30\n0 0 0 0 0 0 0 0 0\n", "0\n95 30 0 0 0\n\n0 0 0 0 0 0\n"}) {
+        const BvhData data = parse_bvh(replaced(kWalker, "0 95 30 0 0 0 0 0 0 0 0 0\n", parted), kFile);
+        EXPECT_EQ(data.values, rows.values) << parted;
+    }
+    // Two short rows are no whole one where Frames says that there are two.
+    const std::string short_twice =
+        replaced(kWalker, "0 95 30 0 0 0 0 0 0 0 0 0\n10 95 30 0 0 90 0 0 0 0 0 0", "0 95 30 0 0 0\n10 95 30 0 0 90");
+    EXPECT_EQ(bvh_refusal(short_twice),
+              "walk.bvh: line 24: the row has 6 values, but there are 12 channels; correct the row");
+}
+
+TEST(Bvh, ScaleChannelsScaleWhatIsBelow) {
+    std::string text = replaced(kWalker, "CHANNELS 6 Xposition", "CHANNELS 9 Zscale Yscale Xscale Xposition");
+    text = replaced(text, "\n0 95 30", "\n1 1 1 0 95 30");
+    text = replaced(text, "\n10 95 30", "\n2 1 0.5 10 95 30");
+    expect_near(pose(text, 0)[2], 0, 170, 100);
+    expect_near(pose(text, 1)[0], 10, 95, 30);
+    // Z, 50 long, becomes X by the turn.
+    expect_near(pose(text, 1)[1], 110, 170, 30);
+    expect_near(pose(text, 1)[2], 150, 170, 30);
+}
+
+TEST(Bvh, CommentsAndEndSitesInOneWordAreRead) {
+    std::string text = "# made by hand\n" + replaced(kWalker, "MOTION\n", "# a remark {\nMOTION # here\n");
+    text = replaced(text, "End Site", "EndSite");
+    EXPECT_EQ(parse_bvh(text, kFile).values, parse_bvh(kWalker, kFile).values);
+    EXPECT_TRUE(parse_bvh(text, kFile).joints[2].end_site);
+}
+
 TEST(Bvh, RotationsApplyInTheOrderOfTheChannels) {
     const std::string turned = replaced(kWalker, "0 95 30 0 0 0 0", "0 95 30 90 0 90 0");
     // Z first: Rz * Ry takes (0, 75, 50) to Rz (50, 75, 0) = (-75, 50, 0).
@@ -250,13 +291,12 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(with("OFFSET 0 -95 0", "OFFSET 0 -95"), "line 17: OFFSET needs three numbers, but has 2");
     expect(with("OFFSET 0 -95 0", "OFFSET 0 -95 0 0"), "line 17: OFFSET takes three numbers; there is '0'");
     expect(with("Hips", ""), "line 2: ROOT needs a name on its line");
-    expect(with("CHANNELS 6", "CHANNELS 7"), "line 5: CHANNELS needs their number, 0 to 6, but there is '7'");
+    expect(with("CHANNELS 6", "CHANNELS 10"), "line 5: CHANNELS needs their number, 0 to 9, but there is '10'");
     expect(with("CHANNELS 6", "CHANNELS 5"), "line 5: CHANNELS says 5, but names more; there is 'Yrotation'");
     expect(with("CHANNELS 3", "CHANNELS 4"), "line 9: CHANNELS says 4, but names only 3");
     expect(with("Zposition", "Xposition"), "line 5: 'Xposition' stands twice in CHANNELS; remove one");
-    expect(
-        with("Zposition", "Zscale"),
-        "line 5: 'Zscale' is not a channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+    expect(with("Zposition", "Zmove"),
+           "line 5: 'Zmove' is not a channel; give Xposition, Xrotation or Xscale, or such of Y or Z");
     for (const char* count : {"two", "", "0", "-2", "2.5", "10000001", "2147483647", "99999999999999999999"}) {
         expect(with("Frames: 2", "Frames: " + std::string(count)),
                "line 22: Frames needs a whole number from 1 to 10000000, but has '" + std::string(count) + "'");
@@ -274,8 +314,13 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(with("0 95 30", "0 nan 30"), "line 24: 'nan' is not a finite number; write it like 12.5");
     expect(with("0 95 30", "0 1e300 30"), "line 24: '1e300' is beyond 1e9; the file is damaged");
     expect(with("0 95 30", "0 1e999 30"), "line 24: '1e999' is beyond 1e9; the file is damaged");
-    expect(with("0 95 30", "0 9,5 30"),
-           "line 24: '9,5' is not a finite number; write decimals with a point and separate numbers with blanks");
+    expect(with("0 95 30", "0, 95, 30"),
+           "line 24: '0,' is not a finite number; write decimals with a point and separate numbers with blanks");
+    for (const char* word : {"0,95,30", "9,5.5", "9,", ",5"}) {
+        expect(with("0 95 30", word),
+               "line 24: '" + std::string(word) +
+                   "' is not a finite number; write decimals with a point and separate numbers with blanks");
+    }
     expect(with("0 95 30", "0 30"), "line 24: the row has 11 values, but there are 12 channels; correct the row");
     expect(with("0 95 30", "0 0 95 30"), "line 24: the row has 13 values, but there are 12 channels; correct the row");
     expect(kWalker.substr(0, kWalker.size() - 5),

@@ -65,6 +65,31 @@ TEST(MotionClips, DisksReachTheFarthestJointOverTheGround) {
     expect_disk(it, 3, 0.1, -0.3, 0.7);
 }
 
+/// A body 170 tall that stands with an arm stretched out, times a factor; its leg turned by so many degrees.
+std::string body(double by, const std::string& turned = "0") {
+    const auto offset = [by](double x, double y) {
+        return "OFFSET " + std::to_string(x * by) + ' ' + std::to_string(y * by) + " 0\n";
+    };
+    const auto tip = [](const std::string& of) { return "End Site\n{\n" + of + "}\n"; };
+    return "HIERARCHY\nROOT Hips\n{\n" + offset(0, 0) + "JOINT Spine\n{\n" + offset(0, 50) + tip(offset(0, 30)) +
+           tip(offset(75, 0)) + "}\nJOINT Leg\n{\n" + offset(0, 0) + "CHANNELS 1 Zrotation\n" + tip(offset(0, -90)) +
+           "}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n" + turned + '\n' + turned + '\n';
+}
+
+TEST(MotionClips, LimbsTellTheUnitWhereTheHeightDoesNot) {
+    for (const double by : {1.0, 0.01, 10.0, 1 / 2.54}) {
+        const SourceFacts facts = clip_of(body(by)).facts;
+        EXPECT_NEAR(facts.unit * by, 0.01, 1e-6) << "who stands is told by the height";
+        EXPECT_NEAR(facts.guessed_from_height.value(), 1.7, 1e-4);
+    }
+    // From hand to foot it is 2.15 m.
+    const SourceFacts decimetres = clip_of(body(0.1)).facts;
+    EXPECT_EQ(decimetres.unit, 0.1);
+    EXPECT_NEAR(decimetres.guessed_from_height.value(), 0.74 * 2.15, 1e-6);
+    // Folded it is 0.8 m high: in inches that would be 2.03 m.
+    EXPECT_EQ(clip_of(body(1, "180")).facts.unit, 0.01);
+}
+
 TEST(MotionClips, UnitUpRootAndRadiusAreOptions) {
     ImportOptions options;
     options.unit = "in";

@@ -16,8 +16,8 @@ namespace {
 constexpr double kMaxFrameTime = 1000;       // seconds; a frame rate in its place is no larger either
 constexpr int kMaxFrames = 10'000'000;       // a day at 115 frames a second; the rows that are there count, not this
 constexpr std::size_t kMaxJoints = 100'000;  // a file of nothing but names would take many times its size
-constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{"xposition", "yposition", "zposition",
-                                                                  "xrotation", "yrotation", "zrotation"};
+constexpr std::array<std::string_view, kMaxBvhChannels> kChannels{
+    "xposition", "yposition", "zposition", "xrotation", "yrotation", "zrotation", "xscale", "yscale", "zscale"};
 
 std::string_view between(const char* begin, const char* end) { return {begin, static_cast<std::size_t>(end - begin)}; }
 
@@ -64,9 +64,14 @@ class BvhScanner {
         while (at_ != end_ && is_blank(*at_)) ++at_;
     }
 
-    /// To the next word, on this line or a later one.
+    /// To the next word, on this line or a later one; past comments, which begin with #.
     void skip_space() {
-        for (skip_blanks(); at_ != end_ && is_line_end(*at_); skip_blanks()) {
+        const auto ends_line = [this] {
+            skip_blanks();
+            if (at_ != end_ && *at_ == '#') at_ = std::find_if(at_, end_, is_line_end);
+            return at_ != end_ && is_line_end(*at_);
+        };
+        while (ends_line()) {
             if (*at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n') ++at_;
             ++at_;
             ++line_;
@@ -109,7 +114,15 @@ class BvhScanner {
         // from_chars takes no plus sign.
         const char* const begin = at_ + (*at_ == '+' && at_ + 1 != end_ && at_[1] != '-' ? 1 : 0);
         double value = 0;
-        const auto [after, error] = std::from_chars(begin, end_, value);
+        auto [after, error] = std::from_chars(begin, end_, value);
+        // What goes on behind a comma is a number with a decimal one.
+        if (end_ - after > 1 && *after == ',' && is_digit(after[1])) {
+            const std::string with_point = number_with_point(begin);
+            const auto [end, of_point] =
+                std::from_chars(with_point.data(), with_point.data() + with_point.size(), value);
+            after = begin + (end - with_point.data());
+            error = of_point;
+        }
         const bool is_whole = after == end_ || is_blank(*after) || is_line_end(*after) || *after == '}';
         if (error == std::errc::invalid_argument || !is_whole || !std::isfinite(value)) fail_number();
         if (error == std::errc::result_out_of_range) value = tiny_or_huge(between(begin, after));
@@ -118,9 +131,19 @@ class BvhScanner {
         return value;
     }
 
+    bool has_decimal_commas() const { return decimal_commas_; }
+
   private:
+    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+    /// The word that begins there, with a point in place of its first comma.
+    std::string number_with_point(const char* begin) {
+        decimal_commas_ = true;
+        std::string word(begin, std::find_if(begin, end_, [](char c) { return is_blank(c) || is_line_end(c); }));
+        word[word.find(',')] = '.';
+        return word;
+    }
     [[noreturn]] void fail_number() {
         const std::string_view word = next_word();
         const bool has_comma = word.find(',') != std::string_view::npos;
@@ -132,6 +155,7 @@ class BvhScanner {
     const char* end_;
     const std::string& file_;
     int line_ = 1;
+    bool decimal_commas_ = false;
 };
 
 /// Quotes what was found where something else was expected: "there is 'x'", or "the file ends".
@@ -223,7 +247,7 @@ class BvhParser {
                 read_channels(joint);
             } else if (!is_tip && is_keyword(word, "joint")) {
                 open.push_back(begin_joint("JOINT", index));
-            } else if (!is_tip && is_keyword(word, "end")) {
+            } else if (!is_tip && (is_keyword(word, "end") || is_keyword(word, "endsite"))) {
                 open.push_back(begin_end_site(index));
             } else {
                 in_.fail("in " + described(joint) +
@@ -293,13 +317,13 @@ class BvhParser {
         const auto known = std::find_if(kChannels.begin(), kChannels.end(),
                                         [word](std::string_view channel) { return is_keyword(word, channel); });
         if (known == kChannels.end()) {
-            in_.fail(in_quotes(word) +
-                     " is not a channel; give Xposition, Yposition, Zposition, Xrotation, Yrotation or Zrotation");
+            in_.fail(in_quotes(word) + " is not a channel; give Xposition, Xrotation or Xscale, or such of Y or Z");
         }
         const auto channel = static_cast<BvhChannel>(known - kChannels.begin());
         const auto given = std::span(move.channels).first(move.channel_count);
         // Turning about one axis twice is an Euler order like XYX; a coordinate given twice is a mistake.
-        if (channel <= BvhChannel::z_position && std::find(given.begin(), given.end(), channel) != given.end()) {
+        const bool is_rotation = channel >= BvhChannel::x_rotation && channel <= BvhChannel::z_rotation;
+        if (!is_rotation && std::find(given.begin(), given.end(), channel) != given.end()) {
             in_.fail(in_quotes(word) + " stands twice in CHANNELS; remove one");
         }
         move.channels[move.channel_count++] = channel;
@@ -343,7 +367,9 @@ class BvhParser {
         frames_line_ = in_.line();
 
         const std::string_view time = setting("Frame Time", {"frame", "time"});
-        const std::optional<double> seconds = parse_double(time);
+        std::string with_point(time);
+        std::ranges::replace(with_point, ',', '.');
+        const std::optional<double> seconds = parse_double(with_point);
         if (!seconds || !(*seconds > 0) || *seconds > kMaxFrameTime) {
             in_.fail("Frame Time needs seconds, over 0 and at most " + std::to_string(static_cast<int>(kMaxFrameTime)) +
                      ", such as 0.033333, but has " + in_quotes(time));
@@ -356,16 +382,19 @@ class BvhParser {
     /// What the file has is believed, not what it says of it: exporters count wrong, and files are cut off. So the
     /// memory is bounded by the size of the text, whatever Frames says.
     void read_rows() {
-        std::size_t rows = 0;
-        for (in_.skip_space(); !in_.at_end(); in_.skip_space(), ++rows) {
-            read_row();
+        for (in_.skip_space(); !in_.at_end(); in_.skip_space()) {
+            read_line();
             // With what becomes of a row: a sample, and where each joint is.
             const std::size_t row = sizeof(double) * data_.row_length + sizeof(glm::dvec3) * (2 + data_.joints.size());
-            data_.spent.cover(row * (rows + 1), "its frames", in_.file());
+            data_.spent.cover(row * (data_.frames() + 1), "its frames", in_.file());
         }
-        if (rows == 0)
+        if (data_.values.empty())
             in_.fail(frames_line_, "Frames says " + std::to_string(frames_) +
                                        ", but no row follows; fetch the file again if it was cut off");
+        const std::size_t rows = data_.frames();
+        if (short_line_ && (in_row_ > 0 || rows != frames_)) fail_as_row(*short_line_);
+        if (in_.has_decimal_commas())
+            data_.warnings.emplace_back("commas within numbers are read as decimal points: 0,5 is a half");
         if (rows == frames_) return;
         data_.warnings.push_back("Frames says " + std::to_string(frames_) + ", but " + counted(rows, "row", "rows") +
                                  (rows == 1 ? " follows" : " follow") + ": all that are there are taken" +
@@ -373,21 +402,38 @@ class BvhParser {
                                  at_line(frames_line_) + ")");
     }
 
-    void read_row() {
+    /// A row, or a part of one that goes over several lines: which of them it is shows at the end, as rows that are too
+    /// short do not add up to whole ones.
+    void read_line() {
         std::size_t count = 0;
         for (; !in_.at_line_end(); in_.skip_blanks(), ++count) {
             const double value = in_.number();
-            if (count < data_.row_length) data_.values.push_back(value);
+            if (in_row_ + count < data_.row_length) data_.values.push_back(value);
         }
-        if (count == data_.row_length) return;
-        in_.fail("the row has " + counted(count, "value", "values") + ", but there are " +
-                 counted(data_.row_length, "channel", "channels") +
-                 (in_.at_end() ? "; the file is cut off" : "; correct the row"));
+        if (in_row_ + count < data_.row_length && !short_line_) short_line_ = {in_.line(), count, in_.at_end()};
+        if (in_row_ + count > data_.row_length)
+            fail_as_row(short_line_.value_or(RowLine{in_.line(), count, in_.at_end()}));
+        in_row_ = (in_row_ + count) % data_.row_length;
+    }
+
+    /// A line of values, and whether the file ends with it.
+    struct RowLine {
+        int line;
+        std::size_t count;
+        bool at_end;
+    };
+
+    [[noreturn]] void fail_as_row(const RowLine& row) const {
+        in_.fail(row.line, "the row has " + counted(row.count, "value", "values") + ", but there are " +
+                               counted(data_.row_length, "channel", "channels") +
+                               (row.at_end ? "; the file is cut off" : "; correct the row"));
     }
 
     BvhScanner in_;
     std::size_t frames_ = 0;  ///< as the file says
     int frames_line_ = 0;
+    std::size_t in_row_ = 0;               ///< values of a row that goes on in the next line
+    std::optional<RowLine> short_line_{};  ///< the first with too few values
     BvhData data_;
 };
 

@@ -11,9 +11,19 @@
 
 namespace mobbscope {
 
-enum class BvhChannel : std::uint8_t { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
+enum class BvhChannel : std::uint8_t {
+    x_position,
+    y_position,
+    z_position,
+    x_rotation,
+    y_rotation,
+    z_rotation,
+    x_scale,  ///< of all below the joint, along its own axes
+    y_scale,
+    z_scale
+};
 
-inline constexpr std::size_t kMaxBvhChannels = 6;  ///< of one joint
+inline constexpr std::size_t kMaxBvhChannels = 9;  ///< of one joint
 
 /// How the values of a row move one joint. Beside the Joint of the same index.
 struct BvhJoint {
@@ -38,9 +48,9 @@ struct BvhData {
 };
 
 /// Reads the text of a file; `file` stands for it in messages. Takes any channel order, position channels on any
-/// joint, several roots, names with blanks, any kind of line end, keywords in any case. Takes the rows that are there:
-/// `warnings` tell if Frames says another number. Throws InputError naming the line, or if it takes more than the
-/// budget.
+/// joint, several roots, names with blanks, any kind of line end, keywords in any case, comments behind #, decimal
+/// commas, rows that go over several lines. Takes the rows that are there: `warnings` tell if Frames says another
+/// number. Throws InputError naming the line, or if it takes more than the budget.
 BvhData parse_bvh(std::string_view text, const std::string& file);
 
 /// The one animation of a file. Every ROOT is a character; those with a channel move. Which axis is up is guessed.

@@ -16,6 +16,7 @@ namespace {
 
 int axis_of(BvhChannel channel) { return static_cast<int>(channel) % 3; }
 bool is_position(BvhChannel channel) { return channel <= BvhChannel::z_position; }
+bool is_scale(BvhChannel channel) { return channel >= BvhChannel::x_scale; }
 
 /// `frame` times the rotation about one of its own axes: two of its columns turn, the third stays.
 void rotate(glm::dmat3& frame, int axis, double degrees) {
@@ -63,23 +64,27 @@ void BvhMotion::pose(double seconds, std::span<glm::dvec3> positions, std::span<
     const double* row = data_->values.data() + static_cast<std::size_t>(nearest) * data_->row_length;
     const std::span<const BvhJoint> moves = this->moves();
     std::vector<glm::dmat3> frames(positions.size());
+    std::vector<glm::dvec3> scales(positions.size());
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const BvhJoint& move = moves[i];
         const bool below = joints_[i].parent >= 0;
         const auto parent = static_cast<std::size_t>(std::max(joints_[i].parent, 0));
         glm::dmat3& frame = frames[i];
         frame = below ? frames[parent] : glm::dmat3(1);
+        scales[i] = below ? scales[parent] : glm::dvec3(1);
         glm::dvec3 offset = move.offset;
         const double* value = row + move.first_value;
         for (std::size_t c = 0; c < move.channel_count; ++c, ++value) {
             const BvhChannel channel = move.channels[c];
             if (is_position(channel)) {
                 offset[axis_of(channel)] = *value;
+            } else if (is_scale(channel)) {
+                scales[i][axis_of(channel)] *= *value;
             } else {
                 rotate(frame, axis_of(channel), *value);
             }
         }
-        positions[i] = below ? positions[parent] + frames[parent] * offset : offset;
+        positions[i] = below ? positions[parent] + frames[parent] * (scales[parent] * offset) : offset;
         if (!rotations.empty()) rotations[i] = glm::quat_cast(frame);
     }
 }

@@ -83,10 +83,9 @@ struct SourceFacts {
     std::string up{};                             ///< the axis of the file that points up: "y", "z", "-y", ...
     std::string up_why{};                         ///< why it is, where no option names it: "as the file says"
 
-    // Of tracks:
-    std::string label{};  ///< its class, "Biker"; empty where the file has none
-    /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
-    /// clip is no track.
+    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
+    /// Seconds on the file's own clock: of tracks its earliest point, which is time 0 of the clock of all of them; of
+    /// an animation its earliest key, which is time 0 of its clip. None: neither.
     std::optional<double> t0{};
 
     friend bool operator==(const SourceFacts&, const SourceFacts&) = default;
@@ -103,7 +102,8 @@ struct ImportedClip {
     std::string animation{};                     ///< of a file with several: ImportOptions::animation for this one
     std::string root{};                          ///< of a file with several characters: ImportOptions::root likewise
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
-    double start = 0;  ///< seconds: when it starts on the clock of its file's tracks, see SourceFacts::t0
+    /// Seconds: when it starts on the clock of its file's tracks (SourceFacts::t0), or after the first of its takes.
+    double start = 0;
 };
 
 }  // namespace mobbscope

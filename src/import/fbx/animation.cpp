@@ -2,6 +2,7 @@
 #include <import/fbx/animation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -192,8 +193,69 @@ glm::dvec3 FbxStack::value(const FbxAnimatedProperty& property, const FbxTransfo
     return out;
 }
 
+namespace {
+
+/// Of FBX 6: a stack of one layer.
+FbxStack stack_of_take(FbxDocument& document, const FbxObjects& objects,
+                       const std::map<std::int64_t, std::size_t>& node_of, FbxDocument::Index take,
+                       double ticks_per_second) {
+    constexpr std::string_view kProperties = "TRS", kAxes = "XYZ";
+    const auto name_of = [&](FbxDocument::Index record) {
+        const std::span<const FbxValue> values = document.values(record);
+        return values.empty() ? std::string_view() : values[0].text;
+    };
+    FbxStack out;
+    out.name = cleaned(name_of(take));
+    const std::span<const FbxValue> times = document.values(document.find(take, "LocalTime"));
+    if (times.size() == 2) {
+        out.begin = times[0].real / ticks_per_second;
+        out.end = times[1].real / ticks_per_second;
+    }
+    FbxLayer base;
+    base.is_base = true;
+    out.layers.push_back(std::move(base));
+    std::map<std::pair<std::size_t, FbxProperty>, FbxTrack> found;
+    const auto each_channel = [&](FbxDocument::Index record, std::string_view names, const auto& visit) {
+        document.each_inside(record, [&](FbxDocument::Index channel) {
+            const std::string_view name = name_of(channel);
+            const std::size_t which = name.size() == 1 ? names.find(name[0]) : std::string_view::npos;
+            if (document.record(channel).name == "Channel" && which != std::string_view::npos) visit(channel, which);
+        });
+    };
+    document.each_inside(take, [&](FbxDocument::Index model) {
+        const auto node = node_of.find(objects.id_of(name_of(model)));
+        if (document.record(model).name != "Model" || node == node_of.end()) return;
+        document.each_inside(model, [&](FbxDocument::Index transform) {
+            if (document.record(transform).name != "Channel" || name_of(transform) != "Transform") return;
+            each_channel(transform, kProperties, [&](FbxDocument::Index channel, std::size_t which) {
+                constexpr std::array kMoved{FbxProperty::translation, FbxProperty::rotation, FbxProperty::scaling};
+                const auto added = found.try_emplace({node->second, kMoved[which]});
+                if (!added.second) return;
+                FbxTrack& track = added.first->second;
+                each_channel(channel, kAxes, [&](FbxDocument::Index number, std::size_t axis) {
+                    const std::span<const FbxValue> fixed = document.values(document.find(number, "Default"));
+                    if (!fixed.empty()) track.fixed[axis] = fixed[0].real;
+                    track.curves[axis] = fbx_curve_of_channel(document, number, ticks_per_second);
+                });
+            });
+        });
+    });
+    for (auto& [key, track] : found) out.properties.push_back({key.first, key.second, {{0, std::move(track)}}});
+    return out;
+}
+
+}  // namespace
+
 std::vector<FbxStack> fbx_stacks(FbxDocument& document, const FbxObjects& objects,
                                  const std::map<std::int64_t, std::size_t>& node_of, double ticks_per_second) {
+    if (document.is_old()) {
+        std::vector<FbxStack> takes;
+        document.each_inside(document.find(FbxDocument::kFile, "Takes"), [&](FbxDocument::Index take) {
+            if (document.record(take).name == "Take")
+                takes.push_back(stack_of_take(document, objects, node_of, take, ticks_per_second));
+        });
+        return takes;
+    }
     StackReader reader(document, objects, node_of, ticks_per_second);
     std::vector<FbxStack> out;
     for (const FbxObject& object : objects.all()) {

@@ -1,3 +1,4 @@
+#include <base/text.h>
 #include <import/fbx/curve.h>
 
 #include <algorithm>
@@ -262,6 +263,112 @@ double FbxCurve::outside(double seconds) const {
     if (rule.kind != Kind::repeat_relative) return value;
     const double gain = keys_.back().value - keys_.front().value;
     return value + (cycle + 1) * (is_before ? -gain : gain);
+}
+
+namespace {
+
+/// Goes through the keys of a channel.
+class ChannelKeys {
+  public:
+    ChannelKeys(const FbxDocument& document, FbxDocument::Index record)
+        : document_(document), record_(record), rest_(document.values(record)) {}
+
+    bool at_end() const { return rest_.empty(); }
+
+    double number() {
+        const FbxValue& value = next();
+        if (value.kind != FbxValue::Kind::integer && value.kind != FbxValue::Kind::real)
+            fail(in_quotes(value.text) + " where a number is expected");
+        return value.real;
+    }
+    /// In binary files as a number.
+    char letter() {
+        const FbxValue& value = next();
+        return value.kind == FbxValue::Kind::text && !value.text.empty() ? value.text[0]
+                                                                         : static_cast<char>(value.integer);
+    }
+    /// What stands behind time and value.
+    Attributes attributes() {
+        const char way = letter();
+        if (way == 'L') return {};
+        if (way == 'C') return {kConstant | (letter() == 'n' ? kConstantNext : 0), {}, 0};
+        if (way != 'U') fail_letter(way);
+        Attributes out{kCubic, {}, 0};
+        const char slopes = letter();
+        const std::size_t count = slopes == 's' || slopes == 'b' ? 2 : slopes == 't' ? 3 : 0;
+        if (count == 0 && slopes != 'a') fail_letter(slopes);
+        if (count > 0) out.flags |= count == 2 ? kUserTangents : kTensionContinuityBias;
+        for (std::size_t i = 0; i < count; ++i) out.data[i] = number();
+        if (count != 3) take_weights(out);
+        return out;
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        document_.fail(record_, "has " + what + "; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
+    }
+    [[noreturn]] void fail_letter(char letter) const {
+        fail("a key of a kind that is not known, " + in_quotes(cleaned({&letter, 1})));
+    }
+
+    const FbxValue& next() {
+        if (rest_.empty()) fail("a key that is cut off");
+        const FbxValue& value = rest_.front();
+        rest_ = rest_.subspan(1);
+        return value;
+    }
+
+    /// Of both handles, of this key's, of the next one's, or as usual.
+    void take_weights(Attributes& out) {
+        const char which = letter();
+        if (which == 'n' || which == 'c') return;
+        if (which != 'a' && which != 'r' && which != 'l') fail_letter(which);
+        const auto stored = [this] {
+            return static_cast<std::uint32_t>(std::clamp(number(), 0.0, 1.0) / kWeightUnit + 0.5);
+        };
+        if (which != 'l') {
+            out.flags |= kWeightedAfter;
+            out.weights |= stored();
+        }
+        if (which != 'r') {
+            out.flags |= kWeightedBeforeNext;
+            out.weights |= stored() << 16;
+        }
+    }
+
+    const FbxDocument& document_;
+    FbxDocument::Index record_;
+    std::span<const FbxValue> rest_;
+};
+
+}  // namespace
+
+std::shared_ptr<const FbxCurve> fbx_curve_of_channel(FbxDocument& document, FbxDocument::Index channel,
+                                                     double ticks_per_second) {
+    constexpr std::int64_t kOldestKeys = 4005;
+    const FbxDocument::Index record = document.find(channel, "Key");
+    if (record == FbxDocument::kNone) return nullptr;
+    const FbxDocument::Index version = document.find(channel, "KeyVer");
+    const std::span<const FbxValue> said = document.values(version);
+    if (!said.empty() && said[0].integer < kOldestKeys)
+        document.fail(version,
+                      "is " + std::to_string(said[0].integer) +
+                          ", and such keys are not read; export the file again as FBX 7.4 (FBX 2014/2015) or newer");
+    ChannelKeys from(document, record);
+    std::vector<FbxKey> keys;
+    std::vector<Attributes> attributes;
+    while (!from.at_end()) {
+        keys.emplace_back().time = from.number() / ticks_per_second;
+        keys.back().value = from.number();
+        attributes.push_back(from.attributes());
+        if (keys.size() > 1 && keys.back().time < keys[keys.size() - 2].time)
+            document.fail(record, "has key " + std::to_string(keys.size() - 1) +
+                                      " before the one before it; export the file again");
+    }
+    document.charge(record, keys.size(), sizeof(FbxKey));
+    for (std::size_t i = 0; i < keys.size(); ++i) set_tangents(keys, i, attributes[i]);
+    if (keys.empty()) return nullptr;
+    return std::make_shared<const FbxCurve>(std::move(keys), ticks_per_second, FbxExtrapolation{}, FbxExtrapolation{});
 }
 
 std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::Index record, double ticks_per_second) {

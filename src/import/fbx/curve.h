@@ -55,4 +55,9 @@ class FbxCurve {
 /// The curve of an AnimationCurve record; null if it has no keys. Throws InputError.
 std::shared_ptr<const FbxCurve> fbx_curve(FbxDocument& document, FbxDocument::Index record, double ticks_per_second);
 
+/// FBX 6: the same of a channel of a take, whose keys stand in one list of times, values and letters. Throws
+/// InputError.
+std::shared_ptr<const FbxCurve> fbx_curve_of_channel(FbxDocument& document, FbxDocument::Index channel,
+                                                     double ticks_per_second);
+
 }  // namespace mobbscope

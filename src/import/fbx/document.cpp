@@ -16,7 +16,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr int kOldestVersion = 7100;
+constexpr int kOldestVersion = 7100, kOldVersion = 6100;
 constexpr int kBitsAsIntegers = 7200;
 // Bytes that numbers may take once they are read. A key takes some 140, stored well packed at least 2.
 constexpr std::size_t kLeastBudget = std::size_t{64} << 20;
@@ -72,7 +72,7 @@ FbxDocument::FbxDocument(std::string_view bytes, std::string file) : bytes_(byte
 
 void FbxDocument::set_version(int version) {
     version_ = version;
-    if (version < kOldestVersion) {
+    if (version < kOldestVersion && version != kOldVersion) {
         throw InputError(file_, "",
                          "is FBX " + version_text(version) +
                              ", which is not read; export it again as FBX 7.4 (FBX 2014/2015) or newer, or as glTF");

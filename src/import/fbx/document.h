@@ -41,11 +41,14 @@ class FbxDocument {
   public:
     using Index = std::uint32_t;
 
-    /// Throws InputError, naming `file` and the place, for what is no FBX, is damaged, or of a version below 7.1.
+    /// Throws InputError, naming `file` and the place, for what is no FBX, is damaged, or of a version other than 6.1
+    /// and those from 7.1 on.
     FbxDocument(std::string_view bytes, std::string file);
 
     /// 7400 for FBX 7.4.
     int version() const { return version_; }
+    /// FBX 6: names stand for ids, and takes for stacks of animation.
+    bool is_old() const { return version_ < 7000; }
     const std::string& file() const { return file_; }
     const FbxRecord& record(Index record) const { return records_[record]; }
     /// Of kNone none.

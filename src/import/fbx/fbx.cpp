@@ -163,7 +163,9 @@ class FbxSceneBuilder {
     void add_settings() {
         Axes axes;
         std::optional<FbxValue> unit;
-        objects_.each_property_in(document_.find(FbxDocument::kFile, "GlobalSettings"),
+        const FbxDocument::Index above =
+            document_.is_old() ? document_.find(FbxDocument::kFile, "Objects") : FbxDocument::kFile;
+        objects_.each_property_in(document_.find(above, "GlobalSettings"),
                                   [&](std::string_view name, std::span<const FbxValue> values) {
                                       const FbxValue& value = values[0];
                                       const int sign = value.integer < 0 ? -1 : 1;

@@ -40,19 +40,28 @@ FbxObjects::FbxObjects(const FbxDocument& document) : document_(document) {
             });
         } else if (name == "Objects") {
             document.each_inside(top, [&](FbxDocument::Index record) {
-                const std::span<const FbxValue> values = document.values(record);
-                if (!has(values, 0, Kind::integer)) return;
-                FbxObject object{values[0].integer, record, document.record(record).name, {}, {}};
-                if (has(values, 1, Kind::text)) object.name = object_name(values[1]);
-                if (has(values, 2, Kind::text)) object.type = values[2].text;
+                std::span<const FbxValue> values = document.values(record);
+                FbxObject object{0, record, document.record(record).name, {}, {}};
+                if (document.is_old()) {
+                    if (!has(values, 0, Kind::text)) return;
+                    object.id =
+                        ids_.try_emplace(values[0].text, static_cast<std::int64_t>(ids_.size()) + 1).first->second;
+                } else {
+                    if (!has(values, 0, Kind::integer)) return;
+                    object.id = values[0].integer;
+                    values = values.subspan(1);
+                }
+                if (has(values, 0, Kind::text)) object.name = object_name(values[0]);
+                if (has(values, 1, Kind::text)) object.type = values[1].text;
                 objects_.push_back(std::move(object));
             });
         } else if (name == "Connections") {
             document.each_inside(top, [&](FbxDocument::Index record) {
                 const std::span<const FbxValue> values = document.values(record);
-                if (!has(values, 0, Kind::text) || !has(values, 1, Kind::integer) || !has(values, 2, Kind::integer))
-                    return;
+                const Kind kind = document.is_old() ? Kind::text : Kind::integer;
+                if (!has(values, 0, Kind::text) || !has(values, 1, kind) || !has(values, 2, kind)) return;
                 FbxConnection connection{values[1].integer, values[2].integer, {}};
+                if (document.is_old()) connection = {id_of(values[1].text), id_of(values[2].text), {}};
                 // "OO" joins objects, "OP" an object to a property; what comes from a property moves nothing here.
                 if (values[0].text == "OP" && has(values, 3, Kind::text)) {
                     connection.property = values[3].text;
@@ -73,6 +82,11 @@ FbxObjects::FbxObjects(const FbxDocument& document) : document_(document) {
 const FbxObject* FbxObjects::find(std::int64_t id) const {
     const auto at = std::ranges::lower_bound(by_id_, id, {}, [&](std::size_t i) { return objects_[i].id; });
     return at != by_id_.end() && objects_[*at].id == id ? &objects_[*at] : nullptr;
+}
+
+std::int64_t FbxObjects::id_of(std::string_view name) const {
+    const auto at = ids_.find(name);
+    return at == ids_.end() ? 0 : at->second;
 }
 
 std::span<const FbxConnection> FbxObjects::to(std::int64_t id) const {

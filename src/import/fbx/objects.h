@@ -40,6 +40,8 @@ class FbxObjects {
     std::span<const FbxObject> all() const { return objects_; }
     /// Null if there is none with that id.
     const FbxObject* find(std::int64_t id) const;
+    /// FBX 6: the id that was made for an object's name, as it stands in the file; 0 if there is none.
+    std::int64_t id_of(std::string_view name) const;
     /// In the order of the file.
     std::span<const FbxConnection> connections() const { return connections_; }
     std::span<const FbxConnection> to(std::int64_t id) const;
@@ -53,24 +55,24 @@ class FbxObjects {
         each_property_in(object.record, visit);
     }
 
-    /// Calls `visit` with each property in the Properties70 of a record.
+    /// Calls `visit` with each property in the Properties70, or Properties60, of a record.
     template <class Visit>
     void each_property_in(FbxDocument::Index record, const Visit& visit) const {
-        each_listed(document_.find(record, "Properties70"), visit, SIZE_MAX);
+        each_listed(document_.find(record, document_.is_old() ? "Properties60" : "Properties70"), visit, SIZE_MAX);
     }
 
   private:
-    /// With each property of a Properties70, at most `most`.
+    /// With each property of those, at most `most`.
     template <class Visit>
     void each_listed(FbxDocument::Index properties, const Visit& visit, std::size_t most) const {
         document_.each_inside(properties, [&](FbxDocument::Index at) {
-            // P: name, type, label, flags, values
-            constexpr std::size_t kHead = 4;
+            // P: name, type, label, flags, values; FBX 6 has no label.
+            const std::size_t head = document_.is_old() ? 3 : 4;
             if (most == 0) return;
             --most;
             const std::span<const FbxValue> values = document_.values(at);
-            if (values.size() > kHead && values[0].kind == FbxValue::Kind::text)
-                visit(values[0].text, values.subspan(kHead));
+            if (values.size() > head && values[0].kind == FbxValue::Kind::text)
+                visit(values[0].text, values.subspan(head));
         });
     }
 
@@ -80,6 +82,7 @@ class FbxObjects {
     std::vector<FbxConnection> connections_;
     std::vector<FbxConnection> by_target_;
     std::unordered_map<std::string_view, FbxDocument::Index> templates_;  ///< by kind, their Properties70
+    std::unordered_map<std::string_view, std::int64_t> ids_;              ///< FBX 6: by name
 };
 
 /// The first three numbers of a property; those that it lacks stay as in `otherwise`.

@@ -1,6 +1,8 @@
 #include <base/error.h>
+#include <base/json.h>
 #include <import/nodes/gltf_file.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mobbscope {
@@ -66,41 +68,6 @@ bool begins_as_json(std::string_view text) {
     return first != std::string_view::npos && text[first] == '{';
 }
 
-/// What the keys of a JSON text, or of its beginning, say about its being glTF.
-struct GltfKeys {
-    bool asset = false;
-    bool version = false;  ///< of the asset
-    bool arrays = false;   ///< accessors or bufferViews
-    bool cut_off = false;  ///< the text ends within its object
-
-    void scan(std::string_view text) {
-        int depth = 0;
-        std::string_view in;      // the key at depth 1 that what stands here belongs to
-        std::string_view string;  // the last one
-        for (std::size_t i = 0; i < text.size(); ++i) {
-            const char c = text[i];
-            if (c == '"') {
-                const std::size_t begin = i + 1;
-                for (++i; i < text.size() && text[i] != '"'; ++i) {
-                    if (text[i] == '\\') ++i;
-                }
-                string = text.substr(begin, i - begin);
-            } else if (c == '{' || c == '[') {
-                ++depth;
-            } else if (c == '}' || c == ']') {
-                --depth;
-            } else if (c == ':' && depth == 1) {
-                in = string;
-                asset = asset || in == "asset";
-                arrays = arrays || in == "accessors" || in == "bufferViews";
-            } else if (c == ':' && depth == 2 && in == "asset") {
-                version = version || string == "version";
-            }
-        }
-        cut_off = depth > 0;
-    }
-};
-
 }  // namespace
 
 GltfParts split_gltf(std::string_view bytes, bool named_glb, const std::string& file) {
@@ -113,10 +80,11 @@ GltfParts split_gltf(std::string_view bytes, bool named_glb, const std::string& 
 
 bool looks_like_gltf(std::string_view head) {
     if (head.starts_with(kMagic)) return true;
-    if (!begins_as_json(head)) return false;
-    GltfKeys keys;
-    keys.scan(head);
-    return keys.asset ? keys.version : keys.cut_off && keys.arrays;
+    const JsonHead json = json_head(head);
+    // Without the asset, which may stand beyond what is looked at, these tell.
+    if (!json.has_any({"asset"})) return json.cut_off && json.has_any({"accessors", "bufferViews"});
+    return std::ranges::any_of(json.keys,
+                               [](const JsonKey& key) { return key.in == "asset" && key.name == "version"; });
 }
 
 }  // namespace mobbscope

@@ -172,6 +172,24 @@ double median_height(const GroundedMotion& motion, int root) {
     return (*std::max_element(heights.begin(), middle) + *middle) / 2;
 }
 
+double height_of_limbs(const GroundedMotion& motion, int root) {
+    constexpr double kHeightOfWay = 0.74;  // of people, with hands and without
+    const std::vector<bool> inside = subtree(motion.joints(), root);
+    const std::vector<double> times = motion.survey();
+    std::vector<glm::dvec3> positions;
+    motion.pose(times[times.size() / 2], positions);
+    std::vector<double> down(positions.size(), 0);  // the longest way down from each joint
+    double longest = 0;
+    for (std::size_t i = positions.size(); i-- > static_cast<std::size_t>(root) + 1;) {
+        if (!inside[i]) continue;
+        const auto parent = static_cast<std::size_t>(motion.joints()[i].parent);
+        const double way = down[i] + glm::distance(positions[i], positions[parent]);
+        longest = std::max(longest, down[parent] + way);
+        down[parent] = std::max(down[parent], way);
+    }
+    return kHeightOfWay * longest;
+}
+
 void GroundedMotion::pose(double seconds, std::vector<glm::dvec3>& positions,
                           std::vector<glm::dquat>* rotations) const {
     positions.resize(joints().size());

@@ -102,4 +102,8 @@ std::vector<bool> subtree(std::span<const Joint> joints, int root);
 /// The median over the survey of the vertical extent of the root's subtree, file units.
 double median_height(const GroundedMotion& motion, int root);
 
+/// How tall the limbs of the root's subtree make a body that stands, whatever its pose, file units: by the longest way
+/// from tip to tip, which of people leads from a hand to a foot.
+double height_of_limbs(const GroundedMotion& motion, int root);
+
 }  // namespace mobbscope

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,6 +22,9 @@ constexpr mobb::Motion kMotionOfSkeletons = mobb::Motion::held;
 constexpr double kBodyHeight = 1.7;  // metres: the contract's, for the unit "auto"
 // The units that motion capture comes in; the last is that of CMU's ASF/AMC files.
 constexpr std::array<double, 5> kBodyUnits{1, 0.01, 0.001, 0.0254, 0.0564444};
+constexpr std::array<double, 6> kUnitsByLimbs{1, 0.01, 0.001, 0.0254, 0.0564444, 0.1};
+// A median height tells the unit where it is so many metres then, and so much of what the limbs make it.
+constexpr double kShort = 1.4, kTall = 2, kStanding = 0.6;
 // More samples of a body than that are a wrong time, and would take minutes to pose.
 constexpr std::size_t kMaxMotionSamples = 1'000'000;
 // Joints times frames or samples, of a clip and of all clips of a file. A file of real captures has no room for more;
@@ -38,11 +42,38 @@ std::string brief_length(double metres) {
     return (metres >= 0.1 ? format_double(std::round(metres * 100) / 100) : formatted("%.1g", metres)) + " m";
 }
 
-/// The unit that makes a body of that height, in file units, most nearly 1.7 m tall.
-double body_unit(double height) {
-    return *std::min_element(kBodyUnits.begin(), kBodyUnits.end(), [height](double a, double b) {
-        return std::abs(a * height - kBodyHeight) < std::abs(b * height - kBodyHeight);
-    });
+/// How a body tells the unit of its file.
+struct BodySize {
+    double height = 0;  ///< file units
+    double limbs = 0;   ///< its height by them
+};
+
+BodySize body_size(const GroundedMotion& grounded, int root) {
+    return {median_height(grounded, root), height_of_limbs(grounded, root)};
+}
+
+struct GuessedUnit {
+    double metres = 1;
+    double height = 0;  ///< of the body, metres
+    bool by_limbs = false;
+};
+
+/// The unit of `units` that makes a height in file units most nearly 1.7 m.
+GuessedUnit nearest_unit(double height, std::span<const double> units) {
+    const double unit = *std::ranges::min_element(
+        units, {}, [height](double metres) { return std::abs(metres * height - kBodyHeight); });
+    return {unit, unit * height};
+}
+
+/// By the height; but of who hardly stands, or has no usual height in any unit, by the limbs if that is nearer.
+GuessedUnit guessed_unit(const BodySize& body) {
+    const GuessedUnit by_height = nearest_unit(body.height, kBodyUnits);
+    const bool stands = body.height >= kStanding * body.limbs;
+    if (stands && by_height.height >= kShort && by_height.height <= kTall) return by_height;
+    GuessedUnit by_limbs = nearest_unit(body.limbs, kUnitsByLimbs);
+    by_limbs.by_limbs = true;
+    const auto off = [](const GuessedUnit& unit) { return std::abs(unit.height - kBodyHeight); };
+    return off(by_limbs) < off(by_height) ? by_limbs : by_height;
 }
 
 /// How the axes of a file lead to those of its clips.
@@ -68,19 +99,20 @@ std::string up_axis(const glm::dmat3& ground) {
     return "";
 }
 
-/// The height of the tallest character, file units, where the unit is to be guessed for several: a file has one unit,
-/// and a child or a ball tells less of it. None where it is not needed, or would take hours.
-std::optional<double> tallest_height(const MotionFile& file, const ImportOptions& options) {
+/// Of the tallest character, where the unit is to be guessed for several: a file has one unit, and a child or a ball
+/// tells less of it. None where it is not needed, or would take hours.
+std::optional<BodySize> tallest_body(const MotionFile& file, const ImportOptions& options) {
     if (file.unit || file.characters.size() < 2) return std::nullopt;
     const ChosenUp up = chosen_up(file, options);
-    double tallest = 0;
+    BodySize tallest;
     double poses = 0;
     for (std::size_t i = 0; i < file.characters.size(); ++i) {
         const std::shared_ptr<const Motion> motion = file.motion(0, i);
         const GroundedMotion grounded(*motion, up.ground);
         poses += static_cast<double>(motion->posed()) * motion->times().frames;
         if (poses > kMaxJointPoses) return std::nullopt;
-        tallest = std::max(tallest, median_height(grounded, motion->topmost()));
+        const BodySize size = body_size(grounded, motion->topmost());
+        if (size.height > tallest.height) tallest = size;
     }
     return tallest;
 }
@@ -88,15 +120,15 @@ std::optional<double> tallest_height(const MotionFile& file, const ImportOptions
 /// One animation of one character to one clip; messages are for import of one file.
 class MotionImport {
   public:
-    /// `height`: of the body that tells the unit, file units; none: the one below the root.
-    MotionImport(const MotionFile& file, const RootedMotion& it, std::optional<double> height,
+    /// `body`: tells the unit; none: the one below the root does.
+    MotionImport(const MotionFile& file, const RootedMotion& it, std::optional<BodySize> body,
                  const ImportOptions& options)
         : file_(file),
           motion_(*it.motion),
           up_(chosen_up(file, options)),
           grounded_(motion_, up_.ground),
           root_(it.root),
-          height_(height),
+          body_(body),
           options_(options) {}
 
     /// `poses_left`: of joints, for this clip and those after it; `made`: of this file.
@@ -125,6 +157,7 @@ class MotionImport {
         facts.frames = times.frames;
         facts.dt = times.dt;
         facts.duration = times.last - times.first;
+        facts.t0 = times.first;
         facts.root = name_of(root);
         facts.joints = joints_below(root);
         facts.rig = rig_of(motion_.joints()[static_cast<std::size_t>(root)].name);
@@ -205,13 +238,15 @@ class MotionImport {
 
     OptionOffer unit_offer(int root) const {
         const std::optional<double>& file_unit = file_.unit;
-        const double height = height_ ? *height_ : median_height(grounded_, root);
-        const double guess = body_unit(height);
+        const BodySize body = body_ ? *body_ : body_size(grounded_, root);
+        const GuessedUnit guess = guessed_unit(body);
+        const double height = guess.by_limbs ? body.limbs : body.height;
         const auto tall = [height](double unit) { return "a body " + brief_length(height * unit) + " tall"; };
-        OptionOffer out{
-            "unit", unit_word(file_unit.value_or(guess)),
-            file_unit ? "as the file says: " + tall(*file_unit) : "guessed: " + tall(guess) + " (its median height)"};
-        if (file_unit) out.choices.push_back({"auto", "auto: " + tall(guess)});
+        OptionOffer out{"unit", unit_word(file_unit.value_or(guess.metres)),
+                        file_unit ? "as the file says: " + tall(*file_unit)
+                                  : "guessed: " + tall(guess.metres) +
+                                        (guess.by_limbs ? " (by its limbs)" : " (its median height)")};
+        if (file_unit) out.choices.push_back({"auto", "auto: " + tall(guess.metres)});
         for (const auto& [value, label] : kUnitChoices) {
             out.choices.push_back({value, label + std::string(": ") + tall(*metres_per_unit(value))});
         }
@@ -242,9 +277,9 @@ class MotionImport {
         } else if (!options_.unit && file_.unit) {
             facts.unit = *file_.unit;
         } else {
-            const double height = height_ ? *height_ : median_height(grounded_, root);
-            facts.unit = body_unit(height);
-            facts.guessed_from_height = height * facts.unit;
+            const GuessedUnit guess = guessed_unit(body_ ? *body_ : body_size(grounded_, root));
+            facts.unit = guess.metres;
+            facts.guessed_from_height = guess.height;
         }
     }
 
@@ -279,7 +314,7 @@ class MotionImport {
     ChosenUp up_;
     GroundedMotion grounded_;
     std::optional<int> root_;
-    std::optional<double> height_;
+    std::optional<BodySize> body_;
     const ImportOptions& options_;
 };
 
@@ -390,7 +425,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
 
     const std::vector<std::string>& names = motions.animations;
     const WantedClips wanted = at_place(path, "", [&] { return wanted_clips(motions, path, options); });
-    const std::optional<double> height = at_place(path, "", [&] { return tallest_height(motions, options); });
+    const std::optional<BodySize> body = at_place(path, "", [&] { return tallest_body(motions, options); });
     double poses_left = kMaxJointPosesOfFile;
     MadeSamples made;
     std::vector<ImportedClip> clips;
@@ -399,7 +434,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
         const std::string place = names.size() > 1 ? "animation " + in_quotes(names[i]) : "";
         ImportedClip& clip = clips.emplace_back(at_place(path, place, [&] {
             const RootedMotion it = motion_of(motions, of, options.root.has_value());
-            return MotionImport(motions, it, height, options).make(poses_left, made);
+            return MotionImport(motions, it, body, options).make(poses_left, made);
         }));
         clip.facts.animation = names[i];
         for (const std::string& warning : wanted.left_out) clip.facts.warnings.push_back({warning});
@@ -413,6 +448,9 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
         clip.root = clip.facts.root;
         clip.name += " · " + clip.root;
     }
+    const auto begin_of = [](const ImportedClip& clip) { return *clip.facts.t0; };
+    const double earliest = begin_of(*std::ranges::min_element(clips, {}, begin_of));
+    for (ImportedClip& clip : clips) clip.start = begin_of(clip) - earliest;
     return clips;
 }
 
@@ -421,7 +459,7 @@ ImportOffer motion_offer(const MotionFile& motions, const std::filesystem::path&
         const std::vector<std::string>& names = motions.animations;
         const WantedClip first = wanted_clips(motions, file.string(), options).clips.front();
         const RootedMotion it = motion_of(motions, first, options.root.has_value());
-        ImportOffer out = MotionImport(motions, it, tallest_height(motions, options), options).offer();
+        ImportOffer out = MotionImport(motions, it, tallest_body(motions, options), options).offer();
         if (names.size() > 1) {
             OptionOffer animations{"animation", "", "the file has several: name one", true};
             for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,5 +1,6 @@
 // Plans of multi-agent path finding in YAML, as the solvers of atb033/multi_agent_path_planning write them. Read event
 // by event: a plan of a million steps is never in memory as a document.
+#include <base/json.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/mapf_plan.h>
 #include <mobb/clip.h>
@@ -275,7 +276,11 @@ class PlanReader {
 bool looks_like_mapf_plan(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     // JSON is YAML too.
-    if (first != std::string_view::npos && text[first] == '{') return text.find("schedule") != std::string_view::npos;
+    if (first != std::string_view::npos && text[first] == '{') {
+        const std::vector<JsonKey> keys = json_head(text).keys;
+        const bool is_json = !keys.empty() && !keys.front().name.empty();
+        return is_json ? json_head(text).has_any({"schedule"}) : text.find("schedule") != std::string_view::npos;
+    }
     return text.starts_with("schedule:") || text.find("\nschedule:") != std::string_view::npos;
 }
 

@@ -24,4 +24,22 @@ bool looks_like_mapf_text_plan(std::string_view text);
 /// InputError naming the line.
 TrackFile parse_mapf_text_plan(std::string_view text, const std::string& file);
 
+/// Whether a text begins like a plan of Robot Runners; likewise like a log, or a task, of Continuous-CBS.
+bool looks_like_robot_runners(std::string_view text);
+bool looks_like_ccbs_plan(std::string_view text);
+
+/// Whether a text begins like a table of the MAPF tracker's.
+bool looks_like_mapf_tracker(std::string_view text);
+
+/// A plan of the MAPF tracker: a table with one row, whose column `solution_plan` or `path` has a line of moves an
+/// agent; they start where the scenario beside it says. Throws InputError.
+TrackFile parse_mapf_tracker(std::string_view text, const std::string& file);
+
+/// Plans of Robot Runners: JSON with `start`, a list of [row, column, heading], and `actualPaths`, of actions "F,R,W".
+/// Throws InputError.
+TrackFile parse_robot_runners(std::string_view text, const std::string& file);
+
+/// Logs of Continuous-CBS: XML with sections of a path, each with its duration. Throws InputError.
+TrackFile parse_ccbs_plan(std::string_view text, const std::string& file);
+
 }  // namespace mobbscope
