@@ -151,7 +151,8 @@ TEST(NodeValues, NothingIsWastedBetweenBoxesThatStand) {
         const auto tree = std::make_shared<const mobb::Tree>(clip, mobb::FitOptions{.leaf = leaf});
         const NodeValues values(tree, {});
         for (int i = 0; i < values.size(); ++i) {
-            if (!tree->is_leaf(i)) EXPECT_EQ(values.value(NodeField::waste, i), 0) << leaf << ' ' << i;
+            if (tree->is_leaf(i)) continue;
+            EXPECT_EQ(values.value(NodeField::waste, i), 0) << leaf << ' ' << i;
         }
     }
 }
