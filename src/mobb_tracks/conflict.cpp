@@ -1,6 +1,7 @@
 #include <mobb/traversal.h>
 #include <mobb_tracks/conflict.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -29,9 +30,9 @@ class ConflictCollector {
         return false;
     }
 
-    void measure_all() {
+    void measure(int first_a, int first_b) {
         NoObserver observer;
-        visit_sample_pairs(wide_a_, 0, a_.count(), wide_b_, 0, b_.count(), observer, *this);
+        visit_sample_pairs(wide_a_, first_a, a_.count(), wide_b_, first_b, b_.count(), observer, *this);
     }
 
     Conflict take() {
@@ -49,9 +50,27 @@ class ConflictCollector {
 
 }  // namespace
 
-Conflict conflict_of(const PlacedClip& a, const PlacedClip& b, double within) {
+const Interval& interval_at(std::span<const Interval> intervals, double time) {
+    const auto begins_later = [time](double t0) { return t0 > time; };
+    const auto after = std::ranges::find_if(intervals, begins_later, &Interval::t0);
+    return after == intervals.begin() ? *after : *(after - 1);
+}
+
+double seconds_of(std::span<const Interval> intervals) {
+    double sum = 0;
+    for (const Interval& interval : intervals) sum += interval.t1 - interval.t0;
+    return sum;
+}
+
+double longest_of(std::span<const Interval> intervals) {
+    double most = 0;
+    for (const Interval& interval : intervals) most = std::max(most, interval.t1 - interval.t0);
+    return most;
+}
+
+Conflict conflict_of(const PlacedClip& a, const PlacedClip& b, double within, int first_a, int first_b) {
     ConflictCollector collector(a, b, within);
-    collector.measure_all();
+    collector.measure(first_a, first_b);
     return collector.take();
 }
 

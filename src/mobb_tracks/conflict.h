@@ -4,9 +4,17 @@
 #include <mobb/placed_tree.h>
 #include <mobb/query.h>
 
+#include <span>
 #include <vector>
 
 namespace mobb {
+
+/// Of intervals in order of time, the one that a time is in; before the first that one.
+const Interval& interval_at(std::span<const Interval> intervals, double time);
+/// Of all intervals.
+double seconds_of(std::span<const Interval> intervals);
+/// Of the longest interval; 0 without any.
+double longest_of(std::span<const Interval> intervals);
 
 /// Two members of a crowd who collide (mobb/predicate.h), or come within some distance.
 struct Conflict {
@@ -42,8 +50,9 @@ class WidenedClip {
     double by_;
 };
 
-/// Over every pair of samples. `within`: metres >= 0; 0 finds who collides. Conflict::a and b are left 0.
-Conflict conflict_of(const PlacedClip& a, const PlacedClip& b, double within = 0);
+/// Over every pair of samples, of `a` from first_a on and of `b` from first_b on. `within`: metres >= 0; 0 finds who
+/// collides. Conflict::a and b are left 0.
+Conflict conflict_of(const PlacedClip& a, const PlacedClip& b, double within = 0, int first_a = 0, int first_b = 0);
 /// Of who collides, through the trees: the same.
 Conflict conflict_of(const PlacedTree& a, const PlacedTree& b);
 

@@ -9,13 +9,17 @@ namespace mobb {
 
 namespace {
 
-/// Whether some samples of two ranges come so close.
-bool come_close(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b, int end_b,
-                double within) {
+/// The first samples of two ranges that come so close.
+std::optional<SamplePair> first_close(const PlacedClip& a, int first_a, int end_a, const PlacedClip& b, int first_b,
+                                      int end_b, double within) {
+    std::optional<SamplePair> found;
     NoObserver observer;
-    const auto stop = [](int, int) { return true; };
-    return visit_sample_pairs(WidenedClip(a, within), first_a, end_a, WidenedClip(b, 0), first_b, end_b, observer, stop)
-        .hit;
+    const auto stop = [&](int i, int j) {
+        found = {i, j};
+        return true;
+    };
+    visit_sample_pairs(WidenedClip(a, within), first_a, end_a, WidenedClip(b, 0), first_b, end_b, observer, stop);
+    return found;
 }
 
 /// The first pieces of two paths that are near each other; they must have such.
@@ -61,24 +65,7 @@ PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
     return out;
 }
 
-double length_of(const Interval& interval) { return interval.t1 - interval.t0; }
-
 }  // namespace
-
-const Interval& PeopleConflict::worst() const {
-    // The deepest pair's overlap begins within an interval, or where two were put together.
-    const auto begins_later = [this](double t0) { return t0 > deepest.time; };
-    const auto after = std::ranges::find_if(intervals, begins_later, &Interval::t0);
-    return after == intervals.begin() ? *after : *(after - 1);
-}
-
-double PeopleConflict::seconds() const {
-    double sum = 0;
-    for (const Interval& interval : intervals) sum += length_of(interval);
-    return sum;
-}
-
-double PeopleConflict::longest() const { return length_of(std::ranges::max(intervals, {}, length_of)); }
 
 PeopleConflicts::PeopleConflicts(std::vector<PlacedClip> crowd, std::span<const int> person_of,
                                  const ConflictSearch& search)
@@ -100,21 +87,20 @@ void PeopleConflicts::sweep() {
             if (!search_.region.has(one, other)) return true;
         }
         if (first && is_path_each) ++tested_;
-        if (first && !is_path_each) near_people.push_back(people_of({a.path, b.path}));
-        // Of a region it is not told where else they meet.
-        const bool ask = !search_.trees.empty();
-        const bool close = ask || (is_whole ? come_close(clip_a, a.first, a.end, clip_b, b.first, b.end, within)
-                                            : come_close(clip_a, 0, clip_a.count(), clip_b, 0, clip_b.count(), within));
-        if (close) {
-            met_.emplace_back(a.path, b.path);
-            spend();
+        if (first && !is_path_each) near_people.emplace_back(person_of(a.path), person_of(b.path));
+        std::optional<SamplePair> close = SamplePair{0, 0};
+        if (search_.trees.empty()) {
+            // Of a region it is not told where else they meet.
+            close = is_whole ? first_close(clip_a, a.first, a.end, clip_b, b.first, b.end, within)
+                             : first_close(clip_a, 0, clip_a.count(), clip_b, 0, clip_b.count(), within);
         }
+        if (close) meet({a.path, b.path, close->a, close->b});
         return close || !is_whole;
     };
     sweep_paths(crowd_, person_of_, within, search_.region, on_near, search_.progress);
     std::ranges::sort(near_people);
     tested_ += static_cast<std::size_t>(std::ranges::unique(near_people).begin() - near_people.begin());
-    std::ranges::sort(met_, {}, [this](const Paths& paths) { return std::pair(people_of(paths), paths); });
+    std::ranges::sort(met_, {}, [this](const Meeting& met) { return std::tuple(people_of(met), met.a, met.b); });
 }
 
 void PeopleConflicts::take_all_pairs() {
@@ -122,40 +108,49 @@ void PeopleConflicts::take_all_pairs() {
     for (int a = 0; a < paths; ++a) {
         if (search_.progress) search_.progress(static_cast<std::size_t>(a), crowd_.size());
         for (int b = a + 1; b < paths; ++b) {
-            if (person_of(a) != person_of(b) &&
-                come_close(clip(a), 0, clip(a).count(), clip(b), 0, clip(b).count(), search_.within))
-                met_.emplace_back(a, b);
+            if (person_of(a) == person_of(b)) continue;
+            const auto close = first_close(clip(a), 0, clip(a).count(), clip(b), 0, clip(b).count(), search_.within);
+            if (close) meet({a, b, close->a, close->b});
         }
     }
     tested_ = pairs();
 }
 
+void PeopleConflicts::meet(const Meeting& met) {
+    met_.push_back(met);
+    spend();
+}
+
 void PeopleConflicts::rank() {
-    for (std::size_t first = 0, end = 0; first < met_.size(); first = end) {
-        const auto other = [&](const Paths& paths) { return people_of(paths) != people_of(met_[first]); };
-        end = static_cast<std::size_t>(
-            std::ranges::find_if(met_.begin() + static_cast<std::ptrdiff_t>(first), met_.end(), other) - met_.begin());
-        Ranked ranked{0, 0, 0, first, end};
-        const PeopleConflict found = measured(ranked);
-        if (found.intervals.empty() || found.longest() < search_.least_seconds) continue;
-        ranked.least_clearance = found.deepest.least_clearance;
-        ranked.seconds = found.seconds();
-        ranked.begin = found.worst().t0;
-        ranked_.push_back(ranked);
+    const auto rank = [this](const Conflict& deepest, std::span<const Interval> intervals, std::size_t first,
+                             std::size_t end) {
+        if (intervals.empty() || longest_of(intervals) < search_.least_seconds) return;
+        ranked_.push_back(
+            {deepest.least_clearance, seconds_of(intervals), interval_at(intervals, deepest.time).t0, first, end});
         spend();
+    };
+    for (std::size_t first = 0, end = 0; first < met_.size(); first = end) {
+        while (end < met_.size() && people_of(met_[end]) == people_of(met_[first])) ++end;
+        if (end == first + 1) {
+            const Conflict found = conflict_between(met_[first]);
+            rank(found, found.intervals, first, end);
+        } else {
+            const PeopleConflict found = measured({0, 0, 0, first, end});
+            rank(found.deepest, found.intervals, first, end);
+        }
     }
     // Those who met are in the order of people.
     std::ranges::sort(ranked_, {},
                       [](const Ranked& of) { return std::tuple(of.least_clearance, -of.seconds, of.begin, of.first); });
 }
 
-Conflict PeopleConflicts::conflict_between(const Paths& paths) const {
-    const auto [a, b] = paths;
+Conflict PeopleConflicts::conflict_between(const Meeting& met) const {
     const auto tree = [this](int path) { return search_.trees[static_cast<std::size_t>(path)]; };
-    Conflict out =
-        search_.trees.empty() ? conflict_of(clip(a), clip(b), search_.within) : conflict_of(tree(a), tree(b));
-    out.a = a;
-    out.b = b;
+    Conflict out = search_.trees.empty()
+                       ? conflict_of(clip(met.a), clip(met.b), search_.within, met.a_sample, met.b_sample)
+                       : conflict_of(tree(met.a), tree(met.b));
+    out.a = met.a;
+    out.b = met.b;
     return out;
 }
 
@@ -171,7 +166,7 @@ PeopleConflict PeopleConflicts::measured(const Ranked& ranked) const {
 
 void PeopleConflicts::spend() const {
     // While they grow there are two of each.
-    if (search_.spend) search_.spend(2 * (met_.size() * sizeof(Paths) + ranked_.size() * sizeof(Ranked)));
+    if (search_.spend) search_.spend(2 * (met_.size() * sizeof(Meeting) + ranked_.size() * sizeof(Ranked)));
 }
 
 std::size_t PeopleConflicts::people() const {

@@ -20,10 +20,9 @@ struct PeopleConflict {
     Conflict deepest;                 ///< of the two paths, a's and b's, that come closest
     Conflict begins;                  ///< of the two paths with which the interval of that begins
 
-    /// The interval in which they come closest.
-    const Interval& worst() const;
-    double seconds() const;  ///< of all intervals
-    double longest() const;  ///< seconds of the longest interval
+    /// The interval in which they come closest: that begins within an interval, or where two were put together.
+    const Interval& worst() const { return interval_at(intervals, deepest.time); }
+    double seconds() const { return seconds_of(intervals); }
 };
 
 struct ConflictSearch {
@@ -64,24 +63,27 @@ class PeopleConflicts {
         double least_clearance, seconds, begin;
         std::size_t first, end;  ///< into met_
     };
-    using Paths = std::pair<int, int>;
+    /// Two paths that may come too close, and their first samples that do.
+    struct Meeting {
+        int a, b;
+        int a_sample = 0, b_sample = 0;
+    };
 
     void sweep();
     void take_all_pairs();
+    void meet(const Meeting& met);
     void rank();
     int person_of(int path) const { return person_of_[static_cast<std::size_t>(path)]; }
-    std::pair<int, int> people_of(const Paths& paths) const {
-        return {person_of(paths.first), person_of(paths.second)};
-    }
+    std::pair<int, int> people_of(const Meeting& met) const { return {person_of(met.a), person_of(met.b)}; }
     const PlacedClip& clip(int path) const { return crowd_[static_cast<std::size_t>(path)]; }
-    Conflict conflict_between(const Paths& paths) const;
+    Conflict conflict_between(const Meeting& met) const;
     PeopleConflict measured(const Ranked& ranked) const;
     void spend() const;
 
     std::vector<PlacedClip> crowd_;
     std::vector<int> person_of_;
     ConflictSearch search_;
-    std::vector<Paths> met_;  ///< paths that may come too close, by people
+    std::vector<Meeting> met_;  ///< by people
     std::size_t tested_ = 0;
     std::vector<Ranked> ranked_;
 };
