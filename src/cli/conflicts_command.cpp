@@ -104,22 +104,22 @@ class People {
 };
 
 /// Conflicts of a run in which no play was forced: the simulator was told that they do not collide. Of no run none.
-std::optional<std::int64_t> unforced_in(const Scene& scene, const FitArguments& fit) {
+std::optional<std::int64_t> unforced_in(const Scene& scene) {
     if (!scene.crowd) return std::nullopt;
-    return std::ranges::count_if(conflicts_in(fitted(scene, fit)),
+    return std::ranges::count_if(conflicts_in(scene),
                                  [&](const SceneConflict& conflict) { return !was_forced(*scene.crowd, conflict); });
 }
 
 struct Findings {
     const Scene& scene;
     const People& people;
-    const std::vector<mobb::PlacedTree>& crowd;
-    const PeopleConflicts& conflicts;
+    const std::vector<mobb::PlacedClip>& crowd;
+    const mobb::PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
 
-    const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)].placed_clip(); }
+    const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)]; }
     /// Halfway between the two where they are closest.
-    glm::dvec2 position(const Conflict& conflict) const {
+    glm::dvec2 position(const mobb::Conflict& conflict) const {
         const mobb::Disk a = mobb::swept(clip(conflict.a), conflict.a_sample).at(conflict.time);
         const mobb::Disk b = mobb::swept(clip(conflict.b), conflict.b_sample).at(conflict.time);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
@@ -131,10 +131,10 @@ struct Findings {
         // Of takes each has its own.
         return *clip.facts.t0 - (clip.options.id ? 0 : clip.start);
     }
-    int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
-    int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
+    int a_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
+    int b_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
-    bool of_plan(const Conflict& conflict) const {
+    bool of_plan(const mobb::Conflict& conflict) const {
         const auto from_plan = [this](int agent) {
             return is_plan(scene.clips[static_cast<std::size_t>(scene.agents[static_cast<std::size_t>(agent)].clip)]);
         };
@@ -142,7 +142,7 @@ struct Findings {
     }
 
     /// In the words of path finding; of agents of a plan.
-    std::vector<PlanConflict> in_plan(const Conflict& conflict) const {
+    std::vector<PlanConflict> in_plan(const mobb::Conflict& conflict) const {
         return plan_conflicts(clip(conflict.a), clip(conflict.b));
     }
 };
@@ -163,8 +163,8 @@ void write_json(const Findings& findings) {
     if (findings.unforced) out.member("unforced", *findings.unforced);
     out.begin_array("conflicts");
     for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
-        const PeopleConflict conflict = findings.conflicts[i];
-        const Conflict& deepest = conflict.deepest;
+        const mobb::PeopleConflict conflict = findings.conflicts[i];
+        const mobb::Conflict& deepest = conflict.deepest;
         out.begin_object(Layout::row);
         out.members("a", findings.people.name(conflict.a), "b", findings.people.name(conflict.b));
         out.list("intervals", conflict.intervals, [&](const mobb::Interval& of) { out.tuple(of.t0, of.t1); });
@@ -199,11 +199,11 @@ std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
 }
 
 void print_text(const Findings& findings) {
-    const PeopleConflicts& conflicts = findings.conflicts;
+    const mobb::PeopleConflicts& conflicts = findings.conflicts;
     const std::size_t listed = std::min(conflicts.size(), TextRows::kMost);
     for (std::size_t i = 0; i < listed; ++i) {
-        const PeopleConflict conflict = conflicts[i];
-        const Conflict& deepest = conflict.deepest;
+        const mobb::PeopleConflict conflict = conflicts[i];
+        const mobb::Conflict& deepest = conflict.deepest;
         const glm::dvec2 position = findings.position(deepest);
         std::cout << cleaned(findings.people.name(conflict.a)) << " and " << cleaned(findings.people.name(conflict.b))
                   << ": " << brief(conflict.seconds()) << " s, ";
@@ -226,17 +226,25 @@ void print_text(const Findings& findings) {
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
-    FitArguments fit = arguments.fit;
-    if (!fit.tree) fit.tree = mobb::TreeKind::blocks;
     const Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
-    const std::optional<std::int64_t> unforced = unforced_in(loaded, fit);
-    const FittedScene scene = fitted(crowd_in(loaded, arguments), fit);
-    std::vector<mobb::PlacedTree> crowd;
-    for (const PlacedAgent& who : scene.placed_agents()) crowd.push_back(scene.placed(who));
-    const People people(scene.scene());
-    const PeopleConflicts conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees,
-                                    tell("tested", "pairs"));
-    const Findings findings{scene.scene(), people, crowd, conflicts, unforced};
+    const std::optional<std::int64_t> unforced = unforced_in(loaded);
+    const Scene scene = crowd_in(loaded, arguments);
+    const std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
+    const People people(scene);
+    mobb::ConflictSearch search;
+    search.direct = arguments.fit.brute;
+    search.progress = tell("looked at", "paths");
+    search.spend = spend_on_conflicts();
+    // Trees are fitted for those who ask for them.
+    std::optional<FittedScene> trees;
+    std::vector<mobb::PlacedTree> placed;
+    if (arguments.fit.tree) {
+        trees = fitted(scene, arguments.fit);
+        for (const PlacedAgent& who : trees->placed_agents()) placed.push_back(trees->placed(who));
+        search.trees = placed;
+    }
+    const mobb::PeopleConflicts conflicts(crowd, people.of_agents(), search);
+    const Findings findings{scene, people, crowd, conflicts, unforced};
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
     return arguments.check && !conflicts.empty() ? kFailed : kDone;

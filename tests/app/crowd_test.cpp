@@ -7,11 +7,11 @@
 #include <conflicts/conflicts.h>
 #include <crowd/simulation/simulate.h>
 #include <mobb/predicate.h>
+#include <mobb_tracks/crowds.h>
 #include <render/pictures/candidates.h>
 #include <scene/crowd_run.h>
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
-#include <support/conflicts.h>
 #include <support/temp_folder.h>
 
 #include "app/crowded_run.h"
@@ -313,7 +313,7 @@ WrongChoice run_with_a_wrong_choice() {
                 candidate.played, candidate.placement, choice.time, PlayKind::chosen, {}};
             WrongChoice out{simulated, agent, last};
             out.run.crowd = std::make_shared<const CrowdRun>(std::move(edited));
-            const std::vector<SceneConflict> found = conflicts_in(FittedScene(out.run, {}));
+            const std::vector<SceneConflict> found = conflicts_in(out.run);
             if (found.empty() || was_forced(*out.run.crowd, found.front())) continue;
             const bool by_a = made_by_a(*out.run.crowd, found.front());
             if ((by_a ? found.front().a : found.front().b).agent != agent) return out;
@@ -369,26 +369,24 @@ TEST_F(CrowdTest, TheTimelineHoldsTheConflicts) {
 TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     run("conflicts.find");
     ASSERT_TRUE(session.crowds.conflicts());
-    const FittedScene people(scene_of_people(session.workspace.scene()), {});
-    ASSERT_GT(people.placed_agents().size(), session.workspace.crowd()->agents.size());
-    std::vector<mobb::PlacedTree> crowd;
+    const Scene people = scene_of_people(session.workspace.scene());
+    ASSERT_GT(people.agents.size(), session.workspace.crowd()->agents.size());
     std::vector<int> person_of;
-    for (const PlacedAgent& who : people.placed_agents()) {
-        crowd.push_back(people.placed(who));
-        person_of.push_back(people.scene().agents[static_cast<std::size_t>(who.agent)].run_agent);
-    }
-    const std::vector<PeopleConflict> other = all_of(PeopleConflicts(crowd, person_of, Search::direct));
+    for (const Agent& who : people.agents) person_of.push_back(who.run_agent);
+    mobb::ConflictSearch direct;
+    direct.direct = true;
+    const std::vector<mobb::PeopleConflict> other = mobb::test::all_of({placed_clips(people), person_of, direct});
     ASSERT_EQ(session.crowds.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < other.size(); ++i) {
-        const PeopleConflict& here = (*session.crowds.conflicts())[i].facts;
+        const mobb::PeopleConflict& here = (*session.crowds.conflicts())[i].facts;
         EXPECT_EQ(std::pair(here.a, here.b), std::pair(other[i].a, other[i].b));
         EXPECT_NEAR(here.deepest.least_clearance, other[i].deepest.least_clearance, 1e-9);
         EXPECT_NEAR(here.seconds(), other[i].seconds(), 1e-6);
         EXPECT_TRUE(pairs.emplace(here.a, here.b).second) << "each pair once";
     }
     double seconds = 0;
-    for (const PeopleConflict& conflict : other) seconds += conflict.seconds();
+    for (const mobb::PeopleConflict& conflict : other) seconds += conflict.seconds();
     EXPECT_EQ(session.crowds.conflict_summary(),
               conflict_count(other.size(), session.workspace.crowd()->agents.size(), seconds));
 }

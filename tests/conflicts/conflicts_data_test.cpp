@@ -109,8 +109,8 @@ TEST(ConflictsData, AreThoseOfAnExactSearchOfSegments) {
         SCOPED_TRACE(file.filename());
         ImportOptions options;
         options.radius = radius;
-        const FittedScene fitted(load_scene(file, options), {});
-        const std::vector<SeenTrack> tracks = tracks_of(fitted.scene());
+        const Scene scene = load_scene(file, options);
+        const std::vector<SeenTrack> tracks = tracks_of(scene);
         ASSERT_GT(tracks.size(), 1u);
         std::map<std::pair<std::string, std::string>, std::vector<Span>> expected;
         for (std::size_t a = 0; a < tracks.size(); ++a) {
@@ -119,7 +119,7 @@ TEST(ConflictsData, AreThoseOfAnExactSearchOfSegments) {
                 if (!spans.empty()) expected[{tracks[a].name, tracks[b].name}] = std::move(spans);
             }
         }
-        const std::vector<SceneConflict> found = conflicts_in(fitted);
+        const std::vector<SceneConflict> found = conflicts_in(scene);
         EXPECT_EQ(found.size(), expected.size());
         for (const SceneConflict& conflict : found) {
             const auto at = expected.find({conflict.a.name, conflict.b.name});

@@ -6,10 +6,10 @@
 #include <crowd/simulation/simulate.h>
 #include <mobb/placed_chain.h>
 #include <mobb/traversal.h>
+#include <mobb_tracks/crowds.h>
 #include <scene/crowd_scene.h>
 #include <scene/drawn_agent.h>
 #include <scene/view_state.h>
-#include <support/conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -150,16 +150,14 @@ TEST_P(JointsOfARun, PlaysAreChosenBeforeTheirJoints) {
 }
 
 /// Pairs of people who collide, of a scene of people.
-std::set<std::pair<int, int>> pairs_of(const Scene& people, Search search) {
-    const FittedScene fitted(people, {});
-    std::vector<mobb::PlacedTree> crowd;
+std::set<std::pair<int, int>> pairs_of(const Scene& people, bool direct) {
     std::vector<int> person_of;
-    for (const PlacedAgent& who : fitted.placed_agents()) {
-        crowd.push_back(fitted.placed(who));
-        person_of.push_back(people.agents[static_cast<std::size_t>(who.agent)].run_agent);
-    }
+    for (const Agent& who : people.agents) person_of.push_back(who.run_agent);
+    mobb::ConflictSearch search;
+    search.direct = direct;
     std::set<std::pair<int, int>> out;
-    for (const PeopleConflict& found : all_of(PeopleConflicts(crowd, person_of, search))) out.emplace(found.a, found.b);
+    for (const mobb::PeopleConflict& found : mobb::test::all_of({placed_clips(people), person_of, search}))
+        out.emplace(found.a, found.b);
     return out;
 }
 
@@ -174,15 +172,15 @@ TEST_P(JointsOfARun, OnlyForcedPlaysAndTheirJointsCollide) {
                    PlayKind::forced;
         };
         std::set<std::pair<int, int>> found;
-        for (const SceneConflict& conflict : conflicts_in(fitted)) {
+        for (const SceneConflict& conflict : conflicts_in(fitted.scene())) {
             found.emplace(conflict.facts.a, conflict.facts.b);
             EXPECT_TRUE(is_forced(conflict.a, conflict.a_play) || is_forced(conflict.b, conflict.b_play))
                 << conflict.a.name << " and " << conflict.b.name << " at " << conflict.begin();
         }
         // The same as of people each of whose plays are one clip.
         const Scene people = scene_of_people(fitted.scene());
-        EXPECT_EQ(pairs_of(people, Search::trees), found);
-        EXPECT_EQ(pairs_of(people, Search::direct), found);
+        EXPECT_EQ(pairs_of(people, false), found);
+        EXPECT_EQ(pairs_of(people, true), found);
         for (const CrowdAgent& agent : run.agents)
             for (const Play& play : agent.plays) forced += play.kind == PlayKind::forced ? 1 : 0;
     }
@@ -217,7 +215,7 @@ TEST_P(JointsOfARun, ConflictsAreThoseOfChains) {
         }
     }
     EXPECT_TRUE(!expected.empty() || GetParam().plan > 0);
-    EXPECT_EQ(pairs_of(scene_of_people(run), Search::direct), expected);
+    EXPECT_EQ(pairs_of(scene_of_people(run), true), expected);
 }
 
 /// Steps of 1 m in 0.5 s: "ahead" goes 4 m, and its joint from 3 m to 4 m takes from 1.5 s to 2 s. "wide" begins with a
@@ -367,7 +365,7 @@ TEST(Joints, AChoiceMadeAgainTellsWhoIsMetOnThem) {
         EXPECT_EQ(joint.time(2), 2);
     }
     // The play is forced then; the conflict is its choice's, and tells the joint.
-    const std::vector<SceneConflict> found = conflicts_in(fitted);
+    const std::vector<SceneConflict> found = conflicts_in(fitted.scene());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].a_play, 1);
     ASSERT_TRUE(found[0].a_joint);
@@ -386,8 +384,9 @@ TEST(Joints, OfOneSampleMovesTheyAreAllThereIs) {
     EXPECT_GT(ones, 20);
     const FittedScene fitted(run, {});
     std::set<std::pair<int, int>> found;
-    for (const SceneConflict& conflict : conflicts_in(fitted)) found.emplace(conflict.facts.a, conflict.facts.b);
-    EXPECT_EQ(pairs_of(scene_of_people(run), Search::direct), found);
+    for (const SceneConflict& conflict : conflicts_in(fitted.scene()))
+        found.emplace(conflict.facts.a, conflict.facts.b);
+    EXPECT_EQ(pairs_of(scene_of_people(run), true), found);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <base/error.h>
 #include <conflicts/conflicts.h>
 #include <crowd/simulation/simulate.h>
+#include <mobb_tracks/crowds.h>
 #include <scene/crowd_run.h>
-#include <support/conflicts.h>
 
 #include <gtest/gtest.h>
 
@@ -61,13 +61,12 @@ TEST(People, CollideWhereTheirPlaysDo) {
         }
     }
     ASSERT_FALSE(expected.empty());
-    const FittedScene people(scene_of_people(run), {});
-    std::vector<mobb::PlacedTree> crowd;
-    for (const PlacedAgent& run_agent : people.placed_agents()) crowd.push_back(people.placed(run_agent));
+    const Scene people = scene_of_people(run);
+    const std::vector<mobb::PlacedClip> crowd = placed_clips(people);
     std::set<std::pair<int, int>> found;
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);
-    for (const PeopleConflict& conflict : all_of(PeopleConflicts(crowd, person_of, Search::trees))) {
+    for (const mobb::PeopleConflict& conflict : mobb::test::all_of({crowd, person_of})) {
         found.emplace(conflict.a, conflict.b);
     }
     EXPECT_EQ(found, expected);

@@ -57,7 +57,7 @@ const std::vector<SceneConflict>* CrowdInspector::conflicts() const {
 
 void CrowdInspector::find_conflicts() {
     jobs_.start("Looking for conflicts", [this, in = workspace_.document().fitted](JobControl& control) -> Job::Finish {
-        std::vector<SceneConflict> found = conflicts_in(*in, progress_of(control));
+        std::vector<SceneConflict> found = conflicts_in(in->scene(), progress_of(control));
         double end = 0;
         for (const SceneConflict& conflict : found) end = std::max(end, conflict.facts.intervals.back().t1);
         return [this, in, end, found = std::move(found)]() mutable {
