@@ -92,7 +92,7 @@ void plain_grid(benchmark::State& state) {
             }
         }
         std::ranges::sort(pairs);
-        pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
         found = pairs.size();
     }
     state.counters["conflicts"] = static_cast<double>(found);

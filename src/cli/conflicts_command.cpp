@@ -1,14 +1,15 @@
 #include <base/error.h>
 #include <base/file.h>
-#include <base/json_writer.h>
 #include <base/text.h>
 #include <cli/command_line.h>
+#include <cli/conflict_listing.h>
 #include <cli/options.h>
 #include <cli/program.h>
-#include <cli/text_rows.h>
 #include <conflicts/conflicts.h>
 #include <conflicts/plan_conflicts.h>
 #include <crowd/simulation/simulate.h>
+#include <mobb_tracks/encounter.h>
+#include <mobb_tracks/parts.h>
 #include <scene/scene_edits.h>
 
 #include <glm/vec2.hpp>
@@ -20,16 +21,21 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope::cli {
 
 namespace {
 
-using Layout = JsonWriter::Layout;
+constexpr int kMostParts = 1'000'000;
 
 struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
+    bool csv = false;
+    std::optional<double> within;         ///< metres
+    std::optional<double> least_seconds;  ///< see mobb::ConflictSearch
+    std::optional<ListedPart> part;
 };
 
 /// Whether the clips of a motion file are of several characters. Throws InputError if one of them has several.
@@ -113,11 +119,10 @@ std::optional<std::int64_t> unforced_in(const Scene& scene) {
 struct Findings {
     const Scene& scene;
     const People& people;
-    const std::vector<mobb::PlacedClip>& crowd;
     const mobb::PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
 
-    const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)]; }
+    const mobb::PlacedClip& clip(int agent) const { return conflicts.clip(agent); }
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const mobb::Conflict& conflict) const {
         const mobb::Disk a = mobb::swept(clip(conflict.a), conflict.a_sample).at(conflict.time);
@@ -140,99 +145,88 @@ struct Findings {
         };
         return from_plan(conflict.a) && from_plan(conflict.b);
     }
-
-    /// In the words of path finding; of agents of a plan.
-    std::vector<PlanConflict> in_plan(const mobb::Conflict& conflict) const {
-        return plan_conflicts(clip(conflict.a), clip(conflict.b));
-    }
 };
 
-void write_plan_conflicts(JsonWriter& out, const std::vector<PlanConflict>& found) {
-    out.list("plan", found, [&](const PlanConflict& conflict) {
-        out.row("kind", name(conflict.kind), "t0", conflict.t0, "t1", conflict.t1, "a", conflict.a, "b", conflict.b);
-    });
+/// "3/8", or throws std::invalid_argument.
+ListedPart parse_part(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const auto whole = whole_number_within(1, kMostParts);
+    if (slash == std::string::npos) throw std::invalid_argument(in_quotes(text) + " is not like 3/8: part 3 of 8");
+    const ListedPart out{whole(text.substr(0, slash)), whole(text.substr(slash + 1))};
+    if (out.part > out.parts)
+        throw std::invalid_argument(in_quotes(text) + ": there are " + std::to_string(out.parts) + " parts");
+    return out;
 }
 
-void write_json(const Findings& findings) {
-    JsonWriter out(std::cout);
-    out.begin_object();
-    out.members("file", shown_name(findings.scene.file), "t0", findings.t0(), "agents", findings.people.count());
-    out.member("radius", common_radius(findings.scene));
-    out.members("pairs", findings.conflicts.pairs(), "pairs_tested", findings.conflicts.pairs_tested());
-    out.member("seconds", findings.conflicts.seconds());
-    if (findings.unforced) out.member("unforced", *findings.unforced);
-    out.begin_array("conflicts");
-    for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
-        const mobb::PeopleConflict conflict = findings.conflicts[i];
-        const mobb::Conflict& deepest = conflict.deepest;
-        out.begin_object(Layout::row);
-        out.members("a", findings.people.name(conflict.a), "b", findings.people.name(conflict.b));
-        out.list("intervals", conflict.intervals, [&](const mobb::Interval& of) { out.tuple(of.t0, of.t1); });
-        out.members("least_clearance", deepest.least_clearance, "time", deepest.time);
-        out.members("a_sample", findings.a_sample(deepest), "b_sample", findings.b_sample(deepest));
-        out.member("position", findings.position(deepest));
-        if (findings.of_plan(deepest)) write_plan_conflicts(out, findings.in_plan(deepest));
-        out.end_object();
-    }
-    out.end_array();
-    out.end_object();
+ListedSeconds listed_seconds(const mobb::MaybeSeconds& of) {
+    if (of.undefined.empty()) return {of.seconds, ""};
+    return {std::nullopt, std::string(of.undefined)};
 }
 
-std::string place_in_words(glm::dvec2 place) {
-    return "(" + to_thousandth(place.x) + ", " + to_thousandth(place.y) + ")";
-}
-
-/// "; vertex conflict at 3 s in (1, 2) and 2 more": the first of each kind.
-std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
-    std::string out;
-    for (const PlanConflictKind kind : {PlanConflictKind::vertex, PlanConflictKind::swap}) {
-        const auto first = std::ranges::find(found, kind, &PlanConflict::kind);
-        if (first == found.end()) continue;
-        out += kind == PlanConflictKind::vertex
-                   ? "; vertex conflict at " + brief(first->t0) + " s in " + place_in_words(first->a)
-                   : "; swap (edge) conflict from " + brief(first->t0) + " to " + brief(first->t1) + " s between " +
-                         place_in_words(first->a) + " and " + place_in_words(first->b);
-        const auto all = std::ranges::count(found, kind, &PlanConflict::kind);
-        if (all > 1) out += " and " + std::to_string(all - 1) + " more";
+ListedConflict listed_conflict(const Findings& findings, std::size_t index, std::optional<double> within) {
+    const mobb::PeopleConflict conflict = findings.conflicts[index];
+    const mobb::Conflict& deepest = conflict.deepest;
+    ListedConflict out{conflict.a,
+                       conflict.b,
+                       findings.people.name(conflict.a),
+                       findings.people.name(conflict.b),
+                       conflict.intervals,
+                       deepest.least_clearance,
+                       deepest.time,
+                       findings.a_sample(deepest),
+                       findings.b_sample(deepest),
+                       findings.position(deepest),
+                       std::nullopt,
+                       std::nullopt,
+                       std::nullopt};
+    if (findings.of_plan(deepest)) out.plan = plan_conflicts(findings.clip(deepest.a), findings.clip(deepest.b));
+    if (within) {
+        const mobb::PlacedClip &a = findings.clip(deepest.a), &b = findings.clip(deepest.b);
+        out.time_to_collision = listed_seconds(mobb::time_to_collision(a, b, deepest, *within));
+        out.post_encroachment = listed_seconds(mobb::post_encroachment_time(a, b, deepest));
     }
     return out;
 }
 
-void print_text(const Findings& findings) {
-    const mobb::PeopleConflicts& conflicts = findings.conflicts;
-    const std::size_t listed = std::min(conflicts.size(), TextRows::kMost);
-    for (std::size_t i = 0; i < listed; ++i) {
-        const mobb::PeopleConflict conflict = conflicts[i];
-        const mobb::Conflict& deepest = conflict.deepest;
-        const glm::dvec2 position = findings.position(deepest);
-        std::cout << cleaned(findings.people.name(conflict.a)) << " and " << cleaned(findings.people.name(conflict.b))
-                  << ": " << brief(conflict.seconds()) << " s, ";
-        const char* separator = "";
-        for (const mobb::Interval& interval : conflict.intervals) {
-            std::cout << separator << brief(interval.t0) << " to " << brief(interval.t1);
-            separator = ", ";
-        }
-        std::cout << " s; least clearance " << brief(deepest.least_clearance) << " m at " << brief(deepest.time)
-                  << " s near " << place_in_words(position) << ", samples " << findings.a_sample(deepest) << " and "
-                  << findings.b_sample(deepest)
-                  << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
-    }
-    tell_left_out(std::cout, conflicts.size() - listed);
-    std::cout << conflict_count(conflicts.size(), findings.people.count(), conflicts.seconds()) << "; "
-              << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
-    if (findings.unforced.value_or(0) > 0)
-        std::cout << counted(*findings.unforced, "contact", "contacts")
-                  << " without a forced play: an answer was wrong, or the run was edited\n";
+/// Refers to the findings.
+ConflictListing listing_of(const Findings& findings, const ConflictsCommandArguments& arguments) {
+    const mobb::PeopleConflicts& found = findings.conflicts;
+    return {shown_name(findings.scene.file),
+            findings.t0(),
+            findings.people.count(),
+            common_radius(findings.scene),
+            found.pairs(),
+            found.pairs_tested(),
+            found.seconds(),
+            findings.unforced,
+            arguments.within,
+            arguments.least_seconds,
+            arguments.part,
+            found.size(),
+            [&findings, within = arguments.within](std::size_t i) { return listed_conflict(findings, i, within); }};
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
-    const Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+    Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     const std::optional<std::int64_t> unforced = unforced_in(loaded);
-    const Scene scene = crowd_in(loaded, arguments);
-    const std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
+    const bool walks_plays = loaded.crowd != nullptr;
+    const Scene scene = crowd_in(std::move(loaded), arguments);
+    std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
     const People people(scene);
     mobb::ConflictSearch search;
+    search.within = arguments.within.value_or(0);
+    search.least_seconds = arguments.least_seconds.value_or(0);
     search.direct = arguments.fit.brute;
+    if (arguments.fit.tree && arguments.within)
+        throw InputError(arguments.file,
+                         "trees find who collides and not who comes near; leave --tree or --within out");
+    if (arguments.part) {
+        if (walks_plays)
+            throw InputError(arguments.file,
+                             "a run is not searched in parts, as its people walk several paths; leave --part out");
+        if (search.direct) throw InputError(arguments.file, "--tree brute searches all; leave it or --part out");
+        search.region = mobb::region_of_part(crowd, arguments.part->part - 1, arguments.part->parts);
+    }
     search.progress = tell("looked at", "paths");
     search.spend = spend_on_conflicts();
     // Trees are fitted for those who ask for them.
@@ -243,15 +237,31 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
         for (const PlacedAgent& who : trees->placed_agents()) placed.push_back(trees->placed(who));
         search.trees = placed;
     }
-    const mobb::PeopleConflicts conflicts(crowd, people.of_agents(), search);
-    const Findings findings{scene, people, crowd, conflicts, unforced};
-    arguments.json ? write_json(findings) : print_text(findings);
+    const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_agents(), search);
+    const Findings findings{scene, people, conflicts, unforced};
+    write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json
+                                                   : arguments.csv                  ? ListingFormat::csv
+                                                                                    : ListingFormat::text);
     flush_results();
     return arguments.check && !conflicts.empty() ? kFailed : kDone;
 }
 
 void add_conflicts_options(Command& command, ConflictsCommandArguments& arguments) {
-    add_fitted_options(command, arguments, "The same as JSON", Brute::allowed);
+    const Option json = add_fitted_options(command, arguments, "The same as JSON", Brute::allowed);
+    const Option csv = command.add_flag("--csv", arguments.csv, "The same as CSV, a row a pair").excludes(json);
+    const auto within = number_within(0, mobb::kMaxLength), seconds = number_within(0, mobb::kMaxTime);
+    command.add_option(
+        "--within", [&arguments, within](const std::string& text) { arguments.within = within(text); },
+        "Also who comes within so many metres, with time to collision, post-encroachment time and chains of contact",
+        "D");
+    command.add_option(
+        "--min-duration", [&arguments, seconds](const std::string& text) { arguments.least_seconds = seconds(text); },
+        "Only who stays so close for so many seconds at a time", "S");
+    command
+        .add_option(
+            "--part", [&arguments](const std::string& text) { arguments.part = parse_part(text); },
+            "One of N parts in space and time, as JSON; merge puts all of them together", "K/N")
+        .excludes(csv);
     command.add_flag("--check", arguments.check, "Status 1 if there is a conflict");
 }
 

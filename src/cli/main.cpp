@@ -56,10 +56,10 @@ int run(int argc, char** argv) {
     program.add_version("mobbscope " MOBBSCOPE_VERSION);
     WindowArguments window;
     add_window_options(program, window);
-    for (const auto add :
-         {add_bench_command, add_conflicts_command, add_convert_command, add_diff_command, add_fit_command,
-          add_graph_command, add_info_command, add_map_command, add_query_command, add_render_command,
-          add_review_command, add_simulate_command, add_sweep_command, add_test_command, add_verify_command}) {
+    for (const auto add : {add_bench_command, add_conflicts_command, add_convert_command, add_diff_command,
+                           add_fit_command, add_graph_command, add_info_command, add_map_command, add_merge_command,
+                           add_query_command, add_render_command, add_review_command, add_simulate_command,
+                           add_sweep_command, add_test_command, add_verify_command}) {
         add(program);
     }
     // Before any command runs: what stands in front of its name is no argument of it.

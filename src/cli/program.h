@@ -54,6 +54,7 @@ void add_fit_command(Command& program);
 void add_graph_command(Command& program);
 void add_info_command(Command& program);
 void add_map_command(Command& program);
+void add_merge_command(Command& program);
 void add_query_command(Command& program);
 void add_render_command(Command& program);
 void add_simulate_command(Command& program);

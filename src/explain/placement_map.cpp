@@ -1,9 +1,9 @@
 #include <base/numbers_in_text.h>
 #include <base/text.h>
 #include <base/threads.h>
-#include <explain/least_clearance.h>
 #include <explain/placement_map.h>
 #include <explain/query_sentence.h>
+#include <mobb/least_clearance.h>
 #include <mobb/query.h>
 
 #include <glm/common.hpp>
@@ -64,8 +64,8 @@ class MapRows {
           blocks_a_(blocks_of(fitted.tree(query.a.clip))),
           blocks_b_(blocks_of(fitted.tree(query.b.clip))) {
         if (map.order.show == MapShow::clearance) {
-            least_a_ = std::make_unique<const ClipDisks>(fitted.tree(query.a.clip).clip());
-            least_b_ = std::make_unique<const ClipDisks>(fitted.tree(query.b.clip).clip());
+            least_a_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.a.clip).clip());
+            least_b_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.b.clip).clip());
         }
     }
 
@@ -119,11 +119,11 @@ class MapRows {
     }
 
     void ask_clearances(int y, std::span<const int> columns) const {
-        std::optional<NearestPair> near;
+        std::optional<mobb::NearestPair> near;
         for (const int x : columns) {
             const mobb::PlacedClip b(least_b_->clip(), placement(x, y));
             // What is nearest in one cell is nearly so in the next.
-            near = least_clearance(a_.placed_clip(), *least_a_, b, *least_b_, near);
+            near = mobb::least_clearance(a_.placed_clip(), *least_a_, b, *least_b_, near);
             const double value = near ? near->clearance : std::numeric_limits<double>::infinity();
             set(x, y, value, value < 0);
         }
@@ -144,7 +144,7 @@ class MapRows {
     PlacementMap& map_;
     mobb::PlacedTree a_;
     std::shared_ptr<const mobb::Blocks> blocks_a_, blocks_b_;
-    std::unique_ptr<const ClipDisks> least_a_, least_b_;
+    std::unique_ptr<const mobb::ClipDisks> least_a_, least_b_;
 };
 
 /// The line between cells that collide and cells that do not: through the middles of neighbours it is led by where
@@ -324,8 +324,8 @@ std::string map_words(const PlacementMap& map, const std::string& a, const std::
 PlacedAnswer answer_at(const FittedScene& fitted, const SceneQuery& query, MapShow show, Search search) {
     const mobb::PlacedTree a = fitted.placed(query.a), b = fitted.placed(query.b);
     if (show == MapShow::clearance) {
-        const ClipDisks disks_a(a.tree().clip()), disks_b(b.tree().clip());
-        const auto near = least_clearance(a.placed_clip(), disks_a, b.placed_clip(), disks_b);
+        const mobb::ClipDisks disks_a(a.tree().clip()), disks_b(b.tree().clip());
+        const auto near = mobb::least_clearance(a.placed_clip(), disks_a, b.placed_clip(), disks_b);
         const double value = near ? near->clearance : std::numeric_limits<double>::infinity();
         return {value < 0, value};
     }

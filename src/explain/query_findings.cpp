@@ -21,7 +21,7 @@ std::string no_common_time(std::span<const DrawnAgent> sides) {
            " ends.";
 }
 
-std::string on_the_floor(std::span<const DrawnAgent> sides, const FloorPaths& floor) {
+std::string on_the_floor(std::span<const DrawnAgent> sides, const mobb::FloorPaths& floor) {
     if (!floor.meeting) {
         return "Their paths stay " + with_unit(floor.apart, "m") + " apart on the floor, whatever the time.";
     }
@@ -43,7 +43,7 @@ QueryFindings find_out(const FittedScene& fitted, const ViewState& view, const R
     const mobb::PlacedTree& a = out.sides[0].placed;
     const mobb::PlacedTree& b = out.sides[1].placed;
     out.clearance = clearance_over_time(a.placed_clip(), b.placed_clip());
-    if (!out.clearance.contact) out.floor = floor_paths(a.placed_clip(), b.placed_clip());
+    if (!out.clearance.contact) out.floor = mobb::floor_paths(a.placed_clip(), b.placed_clip());
     out.recursion = recursion_of(recorded.trace, a, b);
     out.proof = proof_of(fitted, fitted.queries()[static_cast<std::size_t>(*view.query)], recorded, out.clearance);
     return out;
@@ -55,7 +55,7 @@ std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& cle
 }
 
 std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
-                                   const FloorPaths& floor) {
+                                   const mobb::FloorPaths& floor) {
     std::vector<std::string> out;
     if (clearance.contact) {
         const ClearancePiece& piece = clearance.pieces[*clearance.contact];

@@ -4,6 +4,7 @@
 #include <explain/clearance.h>
 #include <explain/query_proof.h>
 #include <explain/recursion.h>
+#include <mobb_tracks/floor_paths.h>
 #include <scene/drawn_agent.h>
 
 #include <span>
@@ -15,7 +16,7 @@ namespace mobbscope {
 struct QueryFindings {
     std::vector<DrawnAgent> sides;  ///< A and B; refer to the fitted scene
     Clearance clearance;
-    FloorPaths floor;  ///< known only where there is no contact
+    mobb::FloorPaths floor;  ///< known only where there is no contact
     Recursion recursion;
     QueryProof proof;
 };
@@ -29,7 +30,7 @@ std::string answer_words(std::span<const DrawnAgent> sides, const Clearance& cle
 /// Why they never collide, or how they do: sentences, the most telling first. `floor` is read where there is no
 /// contact.
 std::vector<std::string> why_words(std::span<const DrawnAgent> sides, const Clearance& clearance,
-                                   const FloorPaths& floor);
+                                   const mobb::FloorPaths& floor);
 
 /// The proof in sentences; none where two share no time, so that no line is needed.
 std::vector<std::string> proof_sentences(const QueryFindings& findings);

@@ -99,7 +99,7 @@ void PeopleConflicts::sweep() {
     };
     sweep_paths(crowd_, person_of_, within, search_.region, on_near, search_.progress);
     std::ranges::sort(near_people);
-    tested_ += static_cast<std::size_t>(std::ranges::unique(near_people).begin() - near_people.begin());
+    tested_ += static_cast<std::size_t>(std::unique(near_people.begin(), near_people.end()) - near_people.begin());
     std::ranges::sort(met_, {}, [this](const Meeting& met) { return std::tuple(people_of(met), met.a, met.b); });
 }
 

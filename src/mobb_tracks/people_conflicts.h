@@ -53,6 +53,7 @@ class PeopleConflicts {
     /// 0 <= index < size().
     PeopleConflict operator[](std::size_t index) const { return measured(ranked_[index]); }
 
+    const PlacedClip& clip(int path) const { return crowd_[static_cast<std::size_t>(path)]; }
     std::size_t people() const;
     std::size_t pairs() const;                            ///< of people
     std::size_t pairs_tested() const { return tested_; }  ///< of people: of whose paths any two came near
@@ -75,7 +76,6 @@ class PeopleConflicts {
     void rank();
     int person_of(int path) const { return person_of_[static_cast<std::size_t>(path)]; }
     std::pair<int, int> people_of(const Meeting& met) const { return {person_of(met.a), person_of(met.b)}; }
-    const PlacedClip& clip(int path) const { return crowd_[static_cast<std::size_t>(path)]; }
     Conflict conflict_between(const Meeting& met) const;
     PeopleConflict measured(const Ranked& ranked) const;
     void spend() const;

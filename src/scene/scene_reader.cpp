@@ -554,7 +554,10 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
     Scene scene;
     std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
-    for (ImportedClip& imported : import_clips(file, options)) {
+    std::vector<ImportedClip> clips = import_clips(file, options);
+    // There may be a hundred thousand.
+    scene.clips.reserve(clips.size());
+    for (ImportedClip& imported : clips) {
         SceneClip clip{imported.name,
                        file.filename().string(),
                        options,

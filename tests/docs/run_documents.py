@@ -20,7 +20,7 @@ import sys
 
 from documents import all_documents, source_and_rest
 
-SUBCOMMANDS = "conflicts convert diff fit graph info map query render simulate sweep test verify"
+SUBCOMMANDS = "conflicts convert diff fit graph info map merge query render simulate sweep test verify"
 
 # Where a person sees the window, a script waits for its first frames.
 WRAPPER = """#!/usr/bin/env bash

@@ -1,8 +1,8 @@
 /// Paths on the floor against a look at all pairs of samples.
-#include <explain/clearance.h>
 #include <gtest/gtest.h>
 #include <mobb/predicate.h>
 #include <mobb/query.h>
+#include <mobb_tracks/floor_paths.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,21 +11,16 @@
 
 #include "mobb/random_motion.h"
 
-namespace mobbscope {
+namespace mobb::test {
 namespace {
-
-using mobb::ClipPtr;
-using mobb::PlacedClip;
-using mobb::Placement;
-using mobb::test::Random;
 
 TEST(FloorPaths, AreThoseOfAllPairs) {
     Random random(3);
     int meetings = 0;
     int apart = 0;
     for (int round = 0; round < 500; ++round) {
-        const ClipPtr a = mobb::test::random_clip(random, 100);
-        const ClipPtr b = mobb::test::random_partner(random, *a, 100);
+        const ClipPtr a = random_clip(random, 100);
+        const ClipPtr b = random_partner(random, *a, 100);
         Placement place_a, place_b;
         place_a.start = random.real(-3, 3);
         place_b.translate = a->reach() > 1e3 || b->reach() > 1e3 ? glm::dvec2(a->samples()[0].x - b->samples()[0].x,
@@ -36,9 +31,9 @@ TEST(FloorPaths, AreThoseOfAllPairs) {
         double distance = std::numeric_limits<double>::infinity();
         for (int i = 0; i < pa.count(); ++i) {
             for (int j = 0; j < pb.count(); ++j) {
-                const mobb::Disk da = pa.disk(i), db = pb.disk(j);
+                const Disk da = pa.disk(i), db = pb.disk(j);
                 distance = std::min(distance, std::hypot(da.x - db.x, da.y - db.y) - da.r - db.r);
-                if (!mobb::collide(da, db)) continue;
+                if (!collide(da, db)) continue;
                 gap = std::min(gap, std::max(pb.time(j) - pa.time(i + 1), pa.time(i) - pb.time(j + 1)));
             }
         }
@@ -48,7 +43,7 @@ TEST(FloorPaths, AreThoseOfAllPairs) {
         if (found.meeting) {
             ++meetings;
             EXPECT_EQ(found.meeting->gap, gap) << round;
-            EXPECT_TRUE(mobb::collide(pa.disk(found.meeting->a_sample), pb.disk(found.meeting->b_sample)));
+            EXPECT_TRUE(collide(pa.disk(found.meeting->a_sample), pb.disk(found.meeting->b_sample)));
             EXPECT_EQ(found.apart, 0);
         } else {
             ++apart;
@@ -66,21 +61,20 @@ TEST(FloorPaths, OfDisksThatRunAreThoseOfAllTimes) {
     int apart = 0;
     for (int round = 0; round < 500; ++round) {
         const auto clip = [&] {
-            std::vector<mobb::Disk> disks;
+            std::vector<Disk> disks;
             glm::dvec2 at(0);
             for (int i = random.integer(1, 6); i > 0; --i) {
                 disks.push_back({at.x, at.y, random.real(0, 0.5)});
                 at += glm::dvec2(random.real(-1, 1.5), random.real(-1, 1));
             }
-            return mobb::Clip(random.real(0.2, 0.6), disks,
-                              random.integer(0, 3) > 0 ? mobb::Motion::linear : mobb::Motion::held);
+            return Clip(random.real(0.2, 0.6), disks, random.integer(0, 3) > 0 ? Motion::linear : Motion::held);
         };
-        const mobb::Clip a = clip(), b = clip();
+        const Clip a = clip(), b = clip();
         Placement place_b;
         place_b.translate = {random.real(-2, 2), random.real(-3, 3)};
         place_b.start = random.real(-3, 3);
         const PlacedClip pa(a, {}), pb(b, place_b);
-        if ((!pa.is_linear() && !pb.is_linear()) || mobb::direct_search(pa, pb)) continue;
+        if ((!pa.is_linear() && !pb.is_linear()) || direct_search(pa, pb)) continue;
         const FloorPaths found = floor_paths(pa, pb);
         ASSERT_TRUE(found.known) << round;
         constexpr int kSteps = 24;
@@ -88,10 +82,10 @@ TEST(FloorPaths, OfDisksThatRunAreThoseOfAllTimes) {
         double distance = std::numeric_limits<double>::infinity();
         for (int i = 0; i < a.steps() * kSteps; ++i) {
             const double ta = pa.time(0) + a.dt() * (i + 0.5) / kSteps;
-            const mobb::Disk da = mobb::swept(pa, i / kSteps).at(ta);
+            const Disk da = swept(pa, i / kSteps).at(ta);
             for (int j = 0; j < b.steps() * kSteps; ++j) {
                 const double tb = pb.time(0) + b.dt() * (j + 0.5) / kSteps;
-                const mobb::Disk db = mobb::swept(pb, j / kSteps).at(tb);
+                const Disk db = swept(pb, j / kSteps).at(tb);
                 const double clear = std::hypot(da.x - db.x, da.y - db.y) - da.r - db.r;
                 distance = std::min(distance, clear);
                 if (clear < 0) gap = std::min(gap, std::abs(ta - tb));
@@ -107,10 +101,10 @@ TEST(FloorPaths, OfDisksThatRunAreThoseOfAllTimes) {
         const FloorMeeting& meeting = *found.meeting;
         EXPECT_GE(gap, meeting.gap - 1e-9) << round;
         // With that lag the two are in one place.
-        const mobb::SweptDisk sa = mobb::swept(pa, meeting.a_sample), sb = mobb::swept(pb, meeting.b_sample);
+        const SweptDisk sa = swept(pa, meeting.a_sample), sb = swept(pb, meeting.b_sample);
         const auto least = [&](double gap_of) {
             const double lag = meeting.a_first ? gap_of : -gap_of;
-            const mobb::Approach approach(sa, {sb.from, sb.to, sb.begin - lag, sb.end - lag});
+            const Approach approach(sa, {sb.from, sb.to, sb.begin - lag, sb.end - lag});
             return approach.clearance(approach.nearest());
         };
         EXPECT_LT(least(meeting.gap), 1e-6) << round;
@@ -120,16 +114,16 @@ TEST(FloorPaths, OfDisksThatRunAreThoseOfAllTimes) {
 }
 
 TEST(FloorPaths, SayThatTheyGaveUpRatherThanAnythingElse) {
-    std::vector<mobb::Disk> jitter;
+    std::vector<Disk> jitter;
     Random random(4);
     for (int i = 0; i < 3000; ++i) jitter.push_back({random.real(0, 10), random.real(0, 10), 0});
-    const mobb::Clip a(0.1, jitter);
-    for (mobb::Disk& d : jitter) d.x += 0.001;
-    const mobb::Clip b(0.1, jitter);
+    const Clip a(0.1, jitter);
+    for (Disk& d : jitter) d.x += 0.001;
+    const Clip b(0.1, jitter);
     const FloorPaths found = floor_paths(PlacedClip(a, {}), PlacedClip(b, {}), 10'000);
     EXPECT_FALSE(found.known);
     EXPECT_FALSE(found.meeting.has_value());
 }
 
 }  // namespace
-}  // namespace mobbscope
+}  // namespace mobb::test

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace mobbscope {
+namespace mobb {
 
 /// Halves of halves of a clip, each under a disk in the clip's frame: made once, for any number of placements.
 class ClipDisks {
@@ -24,15 +24,15 @@ class ClipDisks {
     };
 
     /// Refers to the clip, which must outlive it.
-    explicit ClipDisks(const mobb::Clip& clip);
+    explicit ClipDisks(const Clip& clip);
 
-    const mobb::Clip& clip() const { return *clip_; }
+    const Clip& clip() const { return *clip_; }
     const Range& operator[](int i) const { return ranges_[static_cast<std::size_t>(i)]; }
 
   private:
     int build(int first, int end);
 
-    const mobb::Clip* clip_;
+    const Clip* clip_;
     std::vector<Range> ranges_;
 };
 
@@ -42,10 +42,10 @@ struct NearestPair {
     int a_sample = 0, b_sample = 0;
 };
 
-/// The least clearance over time, as clearance_over_time has it; none if the two share no time. `near`: samples that
-/// may be nearest, which makes it faster. It only affects which of several equally near pairs is returned.
-std::optional<NearestPair> least_clearance(const mobb::PlacedClip& a, const ClipDisks& disks_a,
-                                           const mobb::PlacedClip& b, const ClipDisks& disks_b,
-                                           const std::optional<NearestPair>& near = {});
+/// The least clearance over time, of every pair of samples that the direct search would measure; none if the two share
+/// no time. `near`: samples that may be nearest, which makes it faster. It only affects which of several equally near
+/// pairs is returned.
+std::optional<NearestPair> least_clearance(const PlacedClip& a, const ClipDisks& disks_a, const PlacedClip& b,
+                                           const ClipDisks& disks_b, const std::optional<NearestPair>& near = {});
 
-}  // namespace mobbscope
+}  // namespace mobb

@@ -1,4 +1,4 @@
-#include <explain/least_clearance.h>
+#include <mobb/least_clearance.h>
 #include <mobb/separation.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace mobbscope {
+namespace mobb {
 
 namespace {
 
@@ -16,11 +16,10 @@ constexpr int kMostInLeaf = 8;
 /// Branch and bound over pairs of ranges that share time.
 class NearestSearch {
   public:
-    NearestSearch(const mobb::PlacedClip& a, const ClipDisks& disks_a, const mobb::PlacedClip& b,
-                  const ClipDisks& disks_b)
+    NearestSearch(const PlacedClip& a, const ClipDisks& disks_a, const PlacedClip& b, const ClipDisks& disks_b)
         : a_(a), b_(b), disks_a_(disks_a), disks_b_(disks_b) {
         // The predicate may see disks nearer than bounds do.
-        mobb::RelativeFrame frame(a.frame(), b.frame(), 1);
+        RelativeFrame frame(a.frame(), b.frame(), 1);
         if (a.is_linear() || b.is_linear()) frame.cover_swept_disks(a.frame(), b.frame());
         slack_ = frame.slack2d();
         to_a_ = frame.rotation();
@@ -38,7 +37,7 @@ class NearestSearch {
     double bound(int ia, int ib) const {
         const ClipDisks::Range& a = disks_a_[ia];
         const ClipDisks::Range& b = disks_b_[ib];
-        if (!mobb::overlap_in_time(a_.time(a.first), a_.time(a.end), b_.time(b.first), b_.time(b.end)))
+        if (!overlap_in_time(a_.time(a.first), a_.time(a.end), b_.time(b.first), b_.time(b.end)))
             return std::numeric_limits<double>::infinity();
         const glm::dvec2 between = to_a_(b.center) + offset_ - a.center;
         return std::sqrt(between.x * between.x + between.y * between.y) - a.radius - b.radius - slack_;
@@ -64,17 +63,17 @@ class NearestSearch {
 
     void measure(int first_a, int end_a, int first_b, int end_b) {
         Measuring measuring{{}, *this};
-        mobb::visit_sample_pairs(a_, first_a, end_a, b_, first_b, end_b, measuring, measuring);
+        visit_sample_pairs(a_, first_a, end_a, b_, first_b, end_b, measuring, measuring);
     }
 
     /// Is told of each pair of samples that share time, and then whether they collide.
-    struct Measuring : mobb::ObserverBase {
+    struct Measuring : ObserverBase {
         NearestSearch& search;
 
         void sample_pair(int i, int j, double squared) {
             double apart = 0;
             if (search.a_.is_linear() || search.b_.is_linear()) {
-                const mobb::Approach approach = mobb::approach_of(search.a_, i, search.b_, j);
+                const Approach approach = approach_of(search.a_, i, search.b_, j);
                 apart = approach.clearance(approach.nearest());
             } else {
                 apart = std::sqrt(squared) - (search.a_.disk(i).r + search.b_.disk(j).r);
@@ -96,12 +95,12 @@ class NearestSearch {
         found_ = NearestPair{clearance, i, j};
     }
 
-    const mobb::PlacedClip& a_;
-    const mobb::PlacedClip& b_;
+    const PlacedClip& a_;
+    const PlacedClip& b_;
     const ClipDisks& disks_a_;
     const ClipDisks& disks_b_;
     double slack_ = 0;
-    mobb::Rotation to_a_;
+    Rotation to_a_;
     glm::dvec2 offset_{0};
     double least_ = std::numeric_limits<double>::infinity();
     std::optional<NearestPair> found_;
@@ -109,13 +108,12 @@ class NearestSearch {
 
 }  // namespace
 
-std::optional<NearestPair> least_clearance(const mobb::PlacedClip& a, const ClipDisks& disks_a,
-                                           const mobb::PlacedClip& b, const ClipDisks& disks_b,
-                                           const std::optional<NearestPair>& near) {
+std::optional<NearestPair> least_clearance(const PlacedClip& a, const ClipDisks& disks_a, const PlacedClip& b,
+                                           const ClipDisks& disks_b, const std::optional<NearestPair>& near) {
     return NearestSearch(a, disks_a, b, disks_b).run(near);
 }
 
-ClipDisks::ClipDisks(const mobb::Clip& clip) : clip_(&clip) { build(0, clip.steps()); }
+ClipDisks::ClipDisks(const Clip& clip) : clip_(&clip) { build(0, clip.steps()); }
 
 int ClipDisks::build(int first, int end) {
     const auto index = ranges_.size();
@@ -126,12 +124,12 @@ int ClipDisks::build(int first, int end) {
     const auto disks =
         clip_->samples().subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(stop - first));
     glm::dvec2 least(std::numeric_limits<double>::max()), most(std::numeric_limits<double>::lowest());
-    for (const mobb::Disk& disk : disks) {
+    for (const Disk& disk : disks) {
         least = {std::min(least.x, disk.x), std::min(least.y, disk.y)};
         most = {std::max(most.x, disk.x), std::max(most.y, disk.y)};
     }
     range.center = (least + most) / 2.0;
-    for (const mobb::Disk& disk : disks)
+    for (const Disk& disk : disks)
         range.radius = std::max(range.radius, std::hypot(disk.x - range.center.x, disk.y - range.center.y) + disk.r);
     if (end - first > kMostInLeaf) {
         const int middle = first + (end - first) / 2;
@@ -142,4 +140,4 @@ int ClipDisks::build(int first, int end) {
     return static_cast<int>(index);
 }
 
-}  // namespace mobbscope
+}  // namespace mobb

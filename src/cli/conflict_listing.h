@@ -1,0 +1,71 @@
+/// What `conflicts` found, as it is written: as text, JSON and CSV; and read again from the parts that `merge` puts
+/// together.
+#pragma once
+
+#include <conflicts/plan_conflicts.h>
+#include <mobb_tracks/conflict.h>
+
+#include <glm/vec2.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobbscope::cli {
+
+/// Seconds, or why there are none.
+struct ListedSeconds {
+    std::optional<double> seconds;
+    std::string undefined;  ///< the reason where there are none
+};
+
+/// Two agents who come too close.
+struct ListedConflict {
+    int a = 0, b = 0;  ///< in the order of agents
+    std::string a_name, b_name;
+    std::vector<mobb::Interval> intervals;  ///< at least one
+    double least_clearance = 0, time = 0;
+    int a_sample = 0, b_sample = 0;
+    glm::dvec2 position{0};
+    std::optional<std::vector<PlanConflict>> plan;                      ///< of agents of a plan
+    std::optional<ListedSeconds> time_to_collision, post_encroachment;  ///< of encounters
+};
+
+/// What one part of several has found.
+struct ListedPart {
+    int part = 0, parts = 0;  ///< from 1
+};
+
+struct ConflictListing {
+    std::string file;
+    std::optional<double> t0;
+    std::size_t agents = 0;
+    std::optional<double> radius;
+    std::size_t pairs = 0, pairs_tested = 0;
+    double seconds = 0;
+    std::optional<std::int64_t> unforced;
+    std::optional<double> within;  ///< metres: these are encounters
+    std::optional<double> least_seconds;
+    std::optional<ListedPart> part;
+
+    std::size_t size = 0;
+    std::function<ListedConflict(std::size_t)> row;  ///< worst first
+
+    /// Whether two are parts of one whole.
+    bool is_of_the_same(const ConflictListing& other) const;
+};
+
+enum class ListingFormat { text, json, csv };
+
+/// To standard output.
+void write_listing(const ConflictListing& listing, ListingFormat format);
+
+/// The whole of files that write_listing has written of each part, in any order. Throws InputError, naming the file,
+/// for one that is cut off, belongs to another whole, or is there twice, and if one is missing.
+ConflictListing merged_listing(const std::vector<std::filesystem::path>& files);
+
+}  // namespace mobbscope::cli
