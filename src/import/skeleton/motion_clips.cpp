@@ -125,6 +125,7 @@ class MotionImport {
         facts.frames = times.frames;
         facts.dt = times.dt;
         facts.duration = times.last - times.first;
+        facts.first_key = times.first;
         facts.root = name_of(root);
         facts.joints = joints_below(root);
         facts.rig = rig_of(motion_.joints()[static_cast<std::size_t>(root)].name);
