@@ -59,6 +59,7 @@ void write_conflict(JsonWriter& out, const ListedConflict& conflict, bool of_par
     out.list("intervals", conflict.intervals, [&](const mobb::Interval& of) { out.tuple(of.t0, of.t1); });
     out.members("least_clearance", conflict.least_clearance, "time", conflict.time);
     out.members("a_sample", conflict.a_sample, "b_sample", conflict.b_sample, "position", conflict.position);
+    if (conflict.invented) out.member("invented", true);
     if (conflict.time_to_collision) write_seconds(out, "time_to_collision", *conflict.time_to_collision);
     if (conflict.post_encroachment) write_seconds(out, "post_encroachment_time", *conflict.post_encroachment);
     if (conflict.plan) {
@@ -74,7 +75,9 @@ void write_json(const ConflictListing& listing) {
     out.begin_object();
     out.members("file", listing.file, "t0", listing.t0, "agents", listing.agents, "radius", listing.radius);
     out.members("pairs", listing.pairs, "pairs_tested", listing.pairs_tested, "seconds", listing.seconds);
+    if (!listing.doubt.empty()) out.member("doubt", listing.doubt);
     if (listing.unforced) out.member("unforced", *listing.unforced);
+    if (listing.left_out) out.member("left_out", *listing.left_out);
     if (listing.within) out.member("within", *listing.within);
     if (listing.least_seconds) out.member("min_duration", *listing.least_seconds);
     if (listing.part)
@@ -98,7 +101,7 @@ void write_json(const ConflictListing& listing) {
 
 /// A row for each; the reasons for what is not a number stand in the last column.
 void write_csv(const ConflictListing& listing) {
-    std::cout << "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample"
+    std::cout << "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample,invented"
               << (listing.within ? ",time_to_collision,post_encroachment_time,undefined\n" : "\n");
     for (std::size_t i = 0; i < listing.size; ++i) {
         const ListedConflict of = listing.row(i);
@@ -108,7 +111,7 @@ void write_csv(const ConflictListing& listing) {
                   << format_double(mobb::longest_of(of.intervals)) << ',' << of.intervals.size() << ','
                   << format_double(of.least_clearance) << ',' << format_double(of.time) << ','
                   << format_double(of.position.x) << ',' << format_double(of.position.y) << ',' << of.a_sample << ','
-                  << of.b_sample;
+                  << of.b_sample << ',' << (of.invented ? "true" : "false");
         std::string undefined;
         for (const auto& seconds : {of.time_to_collision, of.post_encroachment}) {
             if (!seconds) continue;
@@ -172,7 +175,8 @@ void write_text(const ConflictListing& listing) {
         }
         std::cout << " s; least clearance " << brief(conflict.least_clearance) << " m at " << brief(conflict.time)
                   << " s near " << place_in_words(conflict.position) << ", samples " << conflict.a_sample << " and "
-                  << conflict.b_sample << in_words("time to collision", conflict.time_to_collision)
+                  << conflict.b_sample << (conflict.invented ? "; rests on invented motion" : "")
+                  << in_words("time to collision", conflict.time_to_collision)
                   << in_words("post-encroachment time", conflict.post_encroachment)
                   << (conflict.plan ? plan_conflicts_in_words(*conflict.plan) : "") << '\n';
     }
@@ -186,6 +190,12 @@ void write_text(const ConflictListing& listing) {
     }
     std::cout << "; " << listing.pairs_tested << " of " << counted(listing.pairs, "pair", "pairs") << " tested"
               << chains_in_words(chains.names(listing.agents)) << '\n';
+    if (listing.left_out.value_or(0) > 0) {
+        std::cout << counted(*listing.left_out, "conflict rests on invented motion and is left out",
+                             "conflicts rest on invented motion and are left out")
+                  << '\n';
+    }
+    if (!listing.doubt.empty()) std::cout << "in doubt: " << cleaned(listing.doubt) << '\n';
     if (listing.unforced.value_or(0) > 0)
         std::cout << counted(*listing.unforced, "contact", "contacts")
                   << " without a forced play: an answer was wrong, or the run was edited\n";
@@ -228,6 +238,7 @@ ListedConflict read_row(const JsonPlace& in) {
     out.a_sample = in.require("a_sample").integer(0, kMost);
     out.b_sample = in.require("b_sample").integer(0, kMost);
     out.position = read_place(in, "position");
+    out.invented = in.find("invented").has_value();
     out.time_to_collision = read_seconds(in, "time_to_collision");
     out.post_encroachment = read_seconds(in, "post_encroachment_time");
     if (const auto plan = in.find("plan")) {
@@ -262,6 +273,8 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
     out.radius = optional_number(in, "radius");
     out.pairs = static_cast<std::size_t>(in.require("pairs").count());
     out.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
+    if (const auto doubt = in.find("doubt")) out.doubt = doubt->string();
+    if (const auto left_out = in.find("left_out")) out.left_out = static_cast<std::size_t>(left_out->count());
     out.within = optional_number(in, "within");
     out.least_seconds = optional_number(in, "min_duration");
     in.require("conflicts").each([&](const JsonPlace& row) { rows.push_back(read_row(row)); });
@@ -273,7 +286,7 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
 bool ConflictListing::is_of_the_same(const ConflictListing& other) const {
     const auto of = [](const ConflictListing& one) {
         return std::tuple(one.file, one.t0, one.agents, one.radius, one.pairs, one.within, one.least_seconds,
-                          one.part ? one.part->parts : 0);
+                          one.left_out.has_value(), one.part ? one.part->parts : 0);
     };
     return of(*this) == of(other);
 }
@@ -305,6 +318,7 @@ ConflictListing merged_listing(const std::vector<std::filesystem::path>& files) 
                              "is part " + what + ", as " + seen[part.part->part] + " is; give each once");
         if (whole) {
             whole->pairs_tested += part.pairs_tested;
+            if (whole->left_out) *whole->left_out += part.left_out.value_or(0);
         } else {
             whole = std::move(part);
         }

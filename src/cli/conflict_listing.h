@@ -31,6 +31,7 @@ struct ListedConflict {
     double least_clearance = 0, time = 0;
     int a_sample = 0, b_sample = 0;
     glm::dvec2 position{0};
+    bool invented = false;                                              ///< nobody was seen to move so
     std::optional<std::vector<PlanConflict>> plan;                      ///< of agents of a plan
     std::optional<ListedSeconds> time_to_collision, post_encroachment;  ///< of encounters
 };
@@ -47,10 +48,12 @@ struct ConflictListing {
     std::optional<double> radius;
     std::size_t pairs = 0, pairs_tested = 0;
     double seconds = 0;
+    std::string doubt{};  ///< why the speeds of the whole file are nobody's; empty: they are somebody's
     std::optional<std::int64_t> unforced;
     std::optional<double> within;  ///< metres: these are encounters
     std::optional<double> least_seconds;
     std::optional<ListedPart> part;
+    std::optional<std::size_t> left_out;  ///< conflicts that rest on invented motion, where they are not listed
 
     std::size_t size = 0;
     std::function<ListedConflict(std::size_t)> row;  ///< worst first

@@ -33,6 +33,7 @@ constexpr int kMostParts = 1'000'000;
 struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
     bool csv = false;
+    bool strict_motion = false;
     std::optional<double> within;         ///< metres
     std::optional<double> least_seconds;  ///< see mobb::ConflictSearch
     std::optional<ListedPart> part;
@@ -109,6 +110,41 @@ class People {
     int samples_ = 0;
 };
 
+/// When nobody was seen to move as one of two agents does (SourceFacts::invented), global seconds.
+class InventedMotion {
+  public:
+    InventedMotion(const Scene& scene, int a, int b) {
+        for (const int index : {a, b}) {
+            const Agent& agent = scene.agents[static_cast<std::size_t>(index)];
+            for (const auto& [from, to] : scene.clips[static_cast<std::size_t>(agent.clip)].facts.invented)
+                spans_.push_back({agent.placement.start + from, agent.placement.start + to});
+        }
+        std::ranges::sort(spans_, {}, &mobb::Interval::t0);
+    }
+
+    bool holds(double time) const { return covers({time, time}); }
+    bool covers(const mobb::Interval& interval) const {
+        double known = interval.t0;
+        for (const mobb::Interval& span : spans_) {
+            if (span.t0 > known + mobb::kMinOverlap) break;
+            if (span.t1 < known) continue;
+            known = span.t1;
+            if (known + mobb::kMinOverlap >= interval.t1) return true;
+        }
+        return false;
+    }
+
+  private:
+    std::vector<mobb::Interval> spans_;
+};
+
+/// Whether a conflict rests on it: where the two overlap deepest, or all the time.
+bool is_invented(const Scene& scene, const mobb::PeopleConflict& conflict) {
+    const InventedMotion invented(scene, conflict.deepest.a, conflict.deepest.b);
+    return invented.holds(conflict.deepest.time) ||
+           std::ranges::all_of(conflict.intervals, [&](const mobb::Interval& of) { return invented.covers(of); });
+}
+
 /// Conflicts of a run in which no play was forced: the simulator was told that they do not collide. Of no run none.
 std::optional<std::int64_t> unforced_in(const Scene& scene) {
     if (!scene.crowd) return std::nullopt;
@@ -121,7 +157,17 @@ struct Findings {
     const People& people;
     const mobb::PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
+    std::vector<std::size_t> listed{};     ///< indices of conflicts
+    double seconds = 0;                    ///< of those
 
+    void list(bool strict_motion) {
+        for (std::size_t i = 0; i < conflicts.size(); ++i) {
+            if (strict_motion && is_invented(scene, conflicts[i])) continue;
+            listed.push_back(i);
+            if (strict_motion) seconds += conflicts[i].seconds();
+        }
+        if (!strict_motion) seconds = conflicts.seconds();
+    }
     const mobb::PlacedClip& clip(int agent) const { return conflicts.clip(agent); }
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const mobb::Conflict& conflict) const {
@@ -176,6 +222,7 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
                        findings.a_sample(deepest),
                        findings.b_sample(deepest),
                        findings.position(deepest),
+                       is_invented(findings.scene, conflict),
                        std::nullopt,
                        std::nullopt,
                        std::nullopt};
@@ -197,13 +244,17 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
             common_radius(findings.scene),
             found.pairs(),
             found.pairs_tested(),
-            found.seconds(),
+            findings.seconds,
+            findings.scene.clips.front().facts.doubt,
             findings.unforced,
             arguments.within,
             arguments.least_seconds,
             arguments.part,
-            found.size(),
-            [&findings, within = arguments.within](std::size_t i) { return listed_conflict(findings, i, within); }};
+            arguments.strict_motion ? std::optional(found.size() - findings.listed.size()) : std::nullopt,
+            findings.listed.size(),
+            [&findings, within = arguments.within](std::size_t i) {
+                return listed_conflict(findings, findings.listed[i], within);
+            }};
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
@@ -238,12 +289,13 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
         search.trees = placed;
     }
     const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_agents(), search);
-    const Findings findings{scene, people, conflicts, unforced};
+    Findings findings{scene, people, conflicts, unforced};
+    findings.list(arguments.strict_motion);
     write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json
                                                    : arguments.csv                  ? ListingFormat::csv
                                                                                     : ListingFormat::text);
     flush_results();
-    return arguments.check && !conflicts.empty() ? kFailed : kDone;
+    return arguments.check && !findings.listed.empty() ? kFailed : kDone;
 }
 
 void add_conflicts_options(Command& command, ConflictsCommandArguments& arguments) {
@@ -263,6 +315,8 @@ void add_conflicts_options(Command& command, ConflictsCommandArguments& argument
             "One of N parts in space and time, as JSON; merge puts all of them together", "K/N")
         .excludes(csv);
     command.add_flag("--check", arguments.check, "Status 1 if there is a conflict");
+    command.add_flag("--strict-motion", arguments.strict_motion,
+                     "Without conflicts that rest on gaps that were filled, or on what is too fast");
 }
 
 }  // namespace

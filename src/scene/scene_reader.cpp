@@ -90,6 +90,8 @@ void read_option(const JsonPlace& place, std::string_view, mobb::Motion& to) {
     to = *motion;
 }
 
+void read_option(const JsonPlace& place, std::string_view, bool& to) { to = place.boolean(); }
+
 /// The name of a track: a string, or a whole number, which a file of tracks has as decimal digits.
 std::string read_id(const JsonPlace& place) {
     if (!place.is_number()) return place.string();

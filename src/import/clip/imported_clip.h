@@ -87,6 +87,9 @@ struct SourceFacts {
     /// Seconds on the file's own clock: of tracks its earliest point, which is time 0 of the clock of all of them; of
     /// an animation its earliest key, which is time 0 of its clip. None: neither.
     std::optional<double> t0{};
+    /// Seconds of the clip, in order: where nobody was seen to move like that, as a gap was filled or it is too fast.
+    std::vector<std::pair<double, double>> invented{};
+    std::string doubt{};  ///< why the speeds of the whole file are nobody's; empty: they are somebody's
 
     friend bool operator==(const SourceFacts&, const SourceFacts&) = default;
 };
