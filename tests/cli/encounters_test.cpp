@@ -73,13 +73,13 @@ TEST(EncountersCommand, TextAndCsvSayTheSame) {
     EXPECT_NE(text.find("; 1 chain of contact, the largest of 3: ann, bob, cid\n"), std::string::npos) << text;
     const std::string csv = run_program(encounters(file, {"--csv"})).out;
     EXPECT_EQ(csv.substr(0, csv.find('\n')),
-              "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample,time_to_collision,"
-              "post_encroachment_time,undefined");
+              "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample,invented,"
+              "time_to_collision,post_encroachment_time,undefined");
     EXPECT_NE(csv.find(",nan,nan,they are on no course to collide; their paths share no place\n"), std::string::npos)
         << csv;
     const std::string plain = run_program({"conflicts", file, "--csv", "--radius", "0.6"}).out;
     EXPECT_EQ(plain.substr(0, plain.find('\n')),
-              "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample");
+              "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample,invented");
 }
 
 TEST(EncountersCommand, ShortOnesAreLeftOut) {
