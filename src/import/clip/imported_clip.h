@@ -37,6 +37,8 @@ struct ImportOptions {
     std::optional<std::string> columns{};
     /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
     std::optional<mobb::Motion> motion{};
+    /// Whether tracks stay whole that jump, or pause, as nobody does; default no.
+    std::optional<bool> keep_jumps{};
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
