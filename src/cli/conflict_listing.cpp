@@ -6,7 +6,7 @@
 #include <cli/conflict_listing.h>
 #include <cli/text_rows.h>
 #include <conflicts/conflicts.h>
-#include <import/tracks/csv.h>
+#include <import/tracks/text_rows.h>
 #include <mobb_tracks/encounter.h>
 
 #include <algorithm>
