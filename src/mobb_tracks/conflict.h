@@ -9,7 +9,7 @@
 
 namespace mobb {
 
-/// Of intervals in order of time, the one that a time is in; before the first that one.
+/// Of intervals in order of time, the last that begins by then; of an earlier time the first. There must be one.
 const Interval& interval_at(std::span<const Interval> intervals, double time);
 /// Of all intervals.
 double seconds_of(std::span<const Interval> intervals);

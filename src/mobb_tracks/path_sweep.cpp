@@ -101,7 +101,7 @@ class FloorGrid {
     std::size_t entries_ = 0;
 };
 
-/// Cells as wide as a path's first piece is usually; not so small that their numbers do not fit.
+/// Cells as wide as most paths' first pieces; not so small that their numbers do not fit.
 double cell_size(std::span<const PlacedClip> crowd, double within) {
     std::vector<float> widths;
     widths.reserve(crowd.size());
@@ -112,9 +112,9 @@ double cell_size(std::span<const PlacedClip> crowd, double within) {
         const PlacedFrame& frame = clip.frame();
         largest = std::max(largest, std::abs(frame.translate.x) + std::abs(frame.translate.y) + 2 * frame.reach);
     }
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    return std::max({double(*middle), (largest + within) * 0x1p-29, std::numeric_limits<double>::min()});
+    const auto most = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 7 / 8);
+    std::nth_element(widths.begin(), most, widths.end());
+    return std::max({double(*most), (largest + within) * 0x1p-29, std::numeric_limits<double>::min()});
 }
 
 class PathSweep {

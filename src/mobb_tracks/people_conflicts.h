@@ -20,7 +20,7 @@ struct PeopleConflict {
     Conflict deepest;                 ///< of the two paths, a's and b's, that come closest
     Conflict begins;                  ///< of the two paths with which the interval of that begins
 
-    /// The interval in which they come closest: that begins within an interval, or where two were put together.
+    /// The interval in which they come closest.
     const Interval& worst() const { return interval_at(intervals, deepest.time); }
     double seconds() const { return seconds_of(intervals); }
 };
