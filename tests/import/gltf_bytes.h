@@ -14,7 +14,7 @@ namespace mobbscope {
 inline namespace testing {
 
 /// A GLB of these parts; `binary` is left out when empty.
-inline std::string join_glb(std::string_view json, std::string_view binary) {
+inline std::string join_glb(std::string_view text, std::string_view binary) {
     const auto number = [](std::size_t value) {
         std::string bytes;
         for (int i = 0; i < 4; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xff);
@@ -25,7 +25,7 @@ inline std::string join_glb(std::string_view json, std::string_view binary) {
         padded.append((4 - content.size() % 4) % 4, padding);
         return number(padded.size()) + std::string(type, 4) + padded;
     };
-    const std::string chunks = chunk("JSON", json, ' ') + (binary.empty() ? "" : chunk("BIN\0", binary, '\0'));
+    const std::string chunks = chunk("JSON", text, ' ') + (binary.empty() ? "" : chunk("BIN\0", binary, '\0'));
     return "glTF" + number(2) + number(12 + chunks.size()) + chunks;
 }
 
@@ -92,14 +92,14 @@ class GltfBytes {
     }
 
     /// `rest` are further members of the root, each with a comma in front.
-    std::string json(const std::string& nodes, const std::string& rest = "", const std::string& uri = "") const {
+    std::string text(const std::string& nodes, const std::string& rest = "", const std::string& uri = "") const {
         return R"({"asset":{"version":"2.0"},"nodes":)" + nodes + ",\"accessors\":[" + accessors_ +
                "],\"bufferViews\":[" + views_ + "],\"buffers\":[{\"byteLength\":" + std::to_string(binary_.size()) +
                (uri.empty() ? "" : ",\"uri\":\"" + uri + "\"") + "}]" +
                (animations_.empty() ? "" : ",\"animations\":[" + animations_ + "]") + rest + "}";
     }
     std::string glb(const std::string& nodes, const std::string& rest = "") const {
-        return join_glb(json(nodes, rest), binary_);
+        return join_glb(text(nodes, rest), binary_);
     }
     const std::string& binary() const { return binary_; }
 
