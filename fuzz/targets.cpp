@@ -102,7 +102,7 @@ std::vector<std::string> gltf_seeds() {
     const int times = small.add_floats("SCALAR", {0, 1});
     const int places = small.add_floats("VEC3", {0, 0, 0, 2, 0, 0});
     small.channel("0", "translation", times, places).animation("walk");
-    return {small.json("[{\"name\":\"hips\",\"children\":[1]},{\"translation\":[0.3,0,0]}]", "", data)};
+    return {small.text("[{\"name\":\"hips\",\"children\":[1]},{\"translation\":[0.3,0,0]}]", "", data)};
 }
 
 std::vector<std::string> glb_seeds() {

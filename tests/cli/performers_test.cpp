@@ -48,6 +48,15 @@ TEST(Performers, PeopleOfOneFileMeetWithoutAScene) {
     EXPECT_EQ(json_of({"conflicts", folder.write("two.bvh", bvh)})["conflicts"].size(), 1u);
 }
 
+TEST(Performers, EachIsThereFromItsFirstKeyToItsLast) {
+    const TempFolder folder;
+    const std::string file = folder.write("late.glb", two_people(true, 0, {2.5, 4.5}));
+    EXPECT_EQ(json_of({"conflicts", file})["conflicts"].size(), 0u) << "on one line, one after the other";
+    const json clips = json_of({"info", file})["clips"];
+    EXPECT_EQ(clips[0]["file_duration"], 2);
+    EXPECT_EQ(clips[1]["start"], 2.5);
+}
+
 TEST(Performers, TakesOnOneTimelineKeepTheirTimes) {
     const TempFolder folder;
     const std::string file = folder.write("takes.glb", two_people(false, 0, {2.5, 4.5}));

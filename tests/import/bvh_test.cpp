@@ -59,6 +59,10 @@ TEST(Bvh, DecimalsMayHaveCommas) {
     expect_near(pose(text, 0)[1], 0.5, 170.75, 80);
     const BvhData data = parse_bvh(text, kFile);
     EXPECT_EQ(data.frame_time, 0.1);
+    EXPECT_EQ(
+        bvh_refusal(replaced(text, "0,5 95,25", "0.5 95,25")),
+        "walk.bvh: line 24: '95,25' is not a finite number; write decimals with a point and separate numbers with "
+        "blanks");
     EXPECT_EQ(data.warnings.at(0), "commas within numbers are read as decimal points: 0,5 is a half");
 }
 

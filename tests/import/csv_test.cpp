@@ -270,7 +270,7 @@ TEST(Csv, OtherExtensionsAreRefusedByName) {
     EXPECT_EQ(
         input_error([] { import_clips("walk.xyz", {}); }),
         "walk.xyz: no reader for this kind of file; clips can be .bvh, .gltf, .glb, .fbx and .csv, trajectories .txt, "
-        ".ndjson, .yaml and .sqlite, scenes .json");
+        ".ndjson, .yaml, .xml and .sqlite, scenes .json");
 }
 
 }  // namespace

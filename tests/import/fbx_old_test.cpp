@@ -98,8 +98,9 @@ TEST(FbxOld, KeysOfEveryKindAreRead) {
     const auto key = [](std::vector<FbxWritten> how) {
         std::vector<FbxWritten> out{std::int64_t{0}, 0.0};
         out.insert(out.end(), how.begin(), how.end());
-        for (const FbxWritten& last : std::vector<FbxWritten>{2 * kSecond, 400.0, std::string("L")})
-            out.push_back(last);
+        out.emplace_back(2 * kSecond);
+        out.emplace_back(400.0);
+        out.insert(out.end(), how.begin(), how.end());
         return out;
     };
     const auto letters = [](const std::string& of) {

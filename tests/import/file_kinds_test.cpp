@@ -53,7 +53,7 @@ std::string gltf_text() {
     GltfBytes bytes;
     const int times = bytes.add_floats("SCALAR", {0, 1});
     bytes.channel("0", "translation", times, bytes.add_floats("VEC3", {0, 0, 0, 2, 0, 0})).animation();
-    return bytes.json(R"([{"name":"hips"}])", "",
+    return bytes.text(R"([{"name":"hips"}])", "",
                       "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=");
 }
 

@@ -92,14 +92,14 @@ class GltfBytes {
     }
 
     /// `rest` are further members of the root, each with a comma in front.
-    std::string json(const std::string& nodes, const std::string& rest = "", const std::string& uri = "") const {
+    std::string text(const std::string& nodes, const std::string& rest = "", const std::string& uri = "") const {
         return R"({"asset":{"version":"2.0"},"nodes":)" + nodes + ",\"accessors\":[" + accessors_ +
                "],\"bufferViews\":[" + views_ + "],\"buffers\":[{\"byteLength\":" + std::to_string(binary_.size()) +
                (uri.empty() ? "" : ",\"uri\":\"" + uri + "\"") + "}]" +
                (animations_.empty() ? "" : ",\"animations\":[" + animations_ + "]") + rest + "}";
     }
     std::string glb(const std::string& nodes, const std::string& rest = "") const {
-        return join_glb(json(nodes, rest), binary_);
+        return join_glb(text(nodes, rest), binary_);
     }
     const std::string& binary() const { return binary_; }
 

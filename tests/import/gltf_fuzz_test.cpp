@@ -53,7 +53,7 @@ void try_to_read(const std::string& bytes, const std::string& name, Outcomes& ou
 TEST(GltfFuzz, DamagedTextIsReadOrRefused) {
     std::mt19937 random(20250302);
     const GltfBytes bytes = everything_in_gltf();
-    const std::string json = bytes.json(kEverythingNodes, kEverythingSkins);
+    const std::string json = bytes.text(kEverythingNodes, kEverythingSkins);
     Outcomes outcomes;
     for (int round = 0; round < 12'000; ++round) {
         // The container stays whole, so that the damage gets past its checks.
@@ -71,7 +71,7 @@ TEST(GltfFuzz, DamagedFilesAreReadOrRefused) {
     const std::array seeds{
         slurp(kClips / "stand.glb"),
         bytes.glb(kEverythingNodes, kEverythingSkins),
-        GltfBytes(bytes).json(kEverythingNodes, "", data),
+        GltfBytes(bytes).text(kEverythingNodes, "", data),
     };
     Outcomes outcomes;
     for (int round = 0; round < 6'000; ++round) {

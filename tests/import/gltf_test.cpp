@@ -277,21 +277,21 @@ TEST(GltfFile, BuffersLieBesideItOrBelow) {
     const GltfBytes bytes = mover();
     std::filesystem::create_directory(folder.path() / "the data");
     folder.write("the data/a+b.bin", bytes.binary() + "more than is needed");
-    const auto file = folder.write("clip.gltf", bytes.json("[{}]", "", "the%20data/a+b.bin"));
+    const auto file = folder.write("clip.gltf", bytes.text("[{}]", "", "the%20data/a+b.bin"));
     expect_at(pose_at(*parse_gltf(slurp(file), file).motion(0, 0), 1)[0], 2, 0, 0);
 
     for (const char* uri :
          {"../clip.bin", "/etc/passwd", "http://host/a.bin", "a/../../b.bin", "%2e%2e/b.bin", "a\\\\b"}) {
-        const std::string message = gltf_refusal(bytes.json("[{}]", "", uri), "clip.gltf");
+        const std::string message = gltf_refusal(bytes.text("[{}]", "", uri), "clip.gltf");
         EXPECT_NE(message.find("/buffers/0/uri"), std::string::npos) << message;
     }
     const std::string missing =
-        input_error([&] { parse_gltf(bytes.json("[{}]", "", "gone.bin"), folder.path() / "b.gltf"); });
+        input_error([&] { parse_gltf(bytes.text("[{}]", "", "gone.bin"), folder.path() / "b.gltf"); });
     EXPECT_NE(missing.find("b.gltf: buffer 0: "), std::string::npos) << missing;
     EXPECT_NE(missing.find("gone.bin: no such file"), std::string::npos) << missing;
     folder.write("short.bin", bytes.binary().substr(1));
     const std::string cut =
-        input_error([&] { parse_gltf(bytes.json("[{}]", "", "short.bin"), folder.path() / "c.gltf"); });
+        input_error([&] { parse_gltf(bytes.text("[{}]", "", "short.bin"), folder.path() / "c.gltf"); });
     EXPECT_NE(cut.find("buffer 0"), std::string::npos) << cut;
 }
 
@@ -299,17 +299,17 @@ TEST(GltfFile, BuffersMayBeDataUris) {
     // The keys 0 and 1, then (0, 0, 0) and (2, 0, 0), as base64.
     const std::string base64 = "AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=";
     for (const char* type : {"application/octet-stream", "application/gltf-buffer", "", "model/whatever"}) {
-        const std::string json = mover().json("[{}]", "", std::string("data:") + type + ";base64," + base64);
+        const std::string json = mover().text("[{}]", "", std::string("data:") + type + ";base64," + base64);
         expect_at(pose_at(*parse_gltf(json, "clip.gltf").motion(0, 0), 1)[0], 2, 0, 0);
     }
-    expect_refused(mover().json("[{}]", "", "data:;base64,AAAA"), "buffer 0", "clip.gltf");
-    expect_refused(mover().json("[{}]", "", "data:,AAAA"), "/buffers/0/uri", "clip.gltf");
+    expect_refused(mover().text("[{}]", "", "data:;base64,AAAA"), "buffer 0", "clip.gltf");
+    expect_refused(mover().text("[{}]", "", "data:,AAAA"), "/buffers/0/uri", "clip.gltf");
 }
 
 TEST(GltfRefusal, NamesTheJsonPointer) {
     const GltfBytes bytes = mover();
     const auto with = [&](const std::string& from, const std::string& to) {
-        std::string json = bytes.json("[{}]");
+        std::string json = bytes.text("[{}]");
         const std::size_t at = json.find(from);
         EXPECT_NE(at, std::string::npos) << from;
         return join_glb(json.replace(at, from.size(), to), bytes.binary());
@@ -398,7 +398,7 @@ TEST(GltfRefusal, NamesTheNode) {
 
 TEST(GltfRefusal, SaysWhyAClipHasNoPath) {
     GltfBytes bytes;
-    expect_refused(GltfBytes(mover()).json("[{}]", "").substr(0, 0), "GLB header");
+    expect_refused(GltfBytes(mover()).text("[{}]", "").substr(0, 0), "GLB header");
     bytes.add_floats("SCALAR", {0, 1});
     expect_refused(bytes.glb("[{}]"), "holds no animation");
     bytes.channel("0", "weights", 0, 0).animation("smile");

@@ -93,7 +93,7 @@ TEST(Logs, BadLogsAreNamed) {
         {header, "f: line 1: there is no row with a place after the header; check the columns"},
         {header + "0,1\n", "f: line 2: has 2 values but there are 3 columns; give every row all of them"},
         {header + "0,x,1\n", "f: line 2: column 2: 'x' is not a finite number; write it like 0.25"},
-        {header + "0,1,1e10\n", "f: line 2: column 3: '1e10' is beyond 1000000000; check the row"},
+        {header + "0,1,1e10\n", "f: line 2: column 3: '1e10' is beyond 1e+09; check the row"},
         {header + "0,1,1\n0,2,1\n", "f: line 3: the time 0 of 'robot' stands already in line 2; remove one"},
         {"$VISION\n$VEHICLE:SIMSEC;NO;LANE;POS\n1;2;3;4\n",
          "f: line 2: lacks one of SIMSEC, NO and coordinates; let VISSIM write them: CoordFront of vehicles, "

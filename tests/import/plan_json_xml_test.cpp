@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace mobbscope {
 namespace {
@@ -47,7 +48,8 @@ TEST(RobotRunners, RobotsMoveOrTurnAndGoForward) {
 TEST(RobotRunners, WhatWasTakenIsSaid) {
     const auto warnings = [](const std::string& text) {
         std::string out;
-        for (const ImportWarning& warning : track_clips(parse_robot_runners(text, "f"), "f", {})[0].facts.warnings) {
+        const std::vector<ImportedClip> clips = track_clips(parse_robot_runners(text, "f"), "f", {});
+        for (const ImportWarning& warning : clips[0].facts.warnings) {
             if (warning.option.empty()) out += warning.text + "; ";
         }
         return out;
@@ -99,12 +101,12 @@ TEST(CcbsPlan, SectionsLastAsLongAsTheySay) {
     EXPECT_EQ(plan_cells(ccbs(section("00", "01", "1") + section("01", "02", "1"), section("22", "12", "1")), "p.xml"),
               "0: (0,0) (1,0) (2,0); 1: (2,2) (2,1) (2,1); ");
     EXPECT_EQ(plan_cells(ccbs(section("00", "00", "0.5") + section("00", "01", "1"), section("22", "12", "1.5"))),
-              "0: (0,0) (0,0) (0.5,0) (1,0); 1: (2,2) (2,1); ");
+              "0: (0,0) (0,0) (0.5,0) (1,0); 1: (2,2) (2,1.66667) (2,1.33333) (2,1); ");
     // Of no common step: the way is looked at more often.
     const auto clips = track_clips(
         parse_ccbs_plan(ccbs(section("00", "11", "1.4142135623730951"), section("22", "12", "1")), "p"), "p", {});
-    EXPECT_EQ(clips[0].clip->dt(), 1.0 / 30);
-    EXPECT_NEAR(clips[0].clip->samples()[30].x, 1 / 1.4142135623730951, 1e-9);
+    EXPECT_EQ(clips[1].clip->dt(), 1.0 / 30);
+    EXPECT_NEAR(clips[1].clip->samples()[15].y, 1.5, 1e-9);
 }
 
 TEST(CcbsPlan, BadPlansAreNamed) {

@@ -93,6 +93,16 @@ TEST(MapfPlan, AgentsAreReadByName) {
     EXPECT_EQ(told[1].clip->samples()[3].y, 2);
 }
 
+TEST(MapfPlan, HeightsAreSaidToBeIgnored) {
+    const auto says = [](const std::string& text) {
+        return std::ranges::any_of(plan(text)[0].facts.warnings, [](const ImportWarning& warning) {
+            return warning.text == "the steps have heights (z), which are ignored: who passes above another meets them";
+        });
+    };
+    EXPECT_TRUE(says("schedule:\n  a:\n  - {t: 0, x: 0, y: 0, z: 1}\n"));
+    EXPECT_FALSE(says(kPlan));
+}
+
 TEST(MapfPlan, WhatStandsBeforeItsDocumentIsNone) {
     for (const std::string before :
          {"---\n", "\xef\xbb\xbf# by a solver\n---\n", "%YAML 1.2\n--- # plan\n", "  # a\n\n  \n---\n"}) {

@@ -116,7 +116,9 @@ class BvhScanner {
         double value = 0;
         auto [after, error] = std::from_chars(begin, end_, value);
         // What goes on behind a comma is a number with a decimal one.
-        if (end_ - after > 1 && *after == ',' && is_digit(after[1])) {
+        points_ = points_ || std::find(begin, after, '.') != after;
+        if (after != begin && end_ - after > 1 && *after == ',' && is_digit(after[1])) {
+            if (points_) fail_number();
             const std::string with_point = number_with_point(begin);
             const auto [end, of_point] =
                 std::from_chars(with_point.data(), with_point.data() + with_point.size(), value);
@@ -132,6 +134,7 @@ class BvhScanner {
     }
 
     bool has_decimal_commas() const { return decimal_commas_; }
+    bool has_decimal_points() const { return points_; }
 
   private:
     static bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -155,6 +158,7 @@ class BvhScanner {
     const char* end_;
     const std::string& file_;
     int line_ = 1;
+    bool points_ = false;  ///< decimal ones, and then no commas
     bool decimal_commas_ = false;
 };
 
@@ -368,7 +372,7 @@ class BvhParser {
 
         const std::string_view time = setting("Frame Time", {"frame", "time"});
         std::string with_point(time);
-        std::ranges::replace(with_point, ',', '.');
+        if (!in_.has_decimal_points()) std::ranges::replace(with_point, ',', '.');
         const std::optional<double> seconds = parse_double(with_point);
         if (!seconds || !(*seconds > 0) || *seconds > kMaxFrameTime) {
             in_.fail("Frame Time needs seconds, over 0 and at most " + std::to_string(static_cast<int>(kMaxFrameTime)) +

@@ -49,8 +49,8 @@ struct BvhData {
 
 /// Reads the text of a file; `file` stands for it in messages. Takes any channel order, position channels on any
 /// joint, several roots, names with blanks, any kind of line end, keywords in any case, comments behind #, decimal
-/// commas, rows that go over several lines. Takes the rows that are there: `warnings` tell if Frames says another
-/// number. Throws InputError naming the line, or if it takes more than the budget.
+/// commas where there are no points, rows that go over several lines. Takes the rows that are there: `warnings` tell if
+/// Frames says another number. Throws InputError naming the line, or if it takes more than the budget.
 BvhData parse_bvh(std::string_view text, const std::string& file);
 
 /// The one animation of a file. Every ROOT is a character; those with a channel move. Which axis is up is guessed.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -123,7 +124,7 @@ class SceneBuilder {
         const std::string place = "animation " + in_quotes(animation.name);
         std::vector<Numbers> times;
         std::vector<GltfChannel> channels;
-        std::set<int> moved;
+        std::map<int, std::pair<double, double>> moved;
         bool moves_morph_targets = false;
         std::set<std::pair<int, std::string_view>> targets;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
@@ -149,10 +150,16 @@ class SceneBuilder {
                 fail_node(channel.target_node,
                           "is animated, so it needs translation, rotation and scale in place of its matrix");
             }
-            moved.insert(channel.target_node);
+            const std::pair<double, double> keyed{times.back()->front(), times.back()->back()};
+            const auto [at, is_new] = moved.try_emplace(channel.target_node, keyed);
+            if (!is_new)
+                at->second = {std::min(at->second.first, keyed.first), std::max(at->second.second, keyed.second)};
         }
         animation.times = key_times(times);
-        animation.moved.assign(moved.begin(), moved.end());
+        for (const auto& [node, keyed] : moved) {
+            animation.moved.push_back(node);
+            animation.keyed.push_back(keyed);
+        }
         animation.pose = gltf_pose(rest_, channels);
         channels_.insert(channels_.end(), channels.begin(), channels.end());
         const auto elsewhere = from_.unread.find(index);

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -77,6 +79,8 @@ class NodeMotion : public Motion {
         const std::vector<int> joint_of = choose_joints(nodes);
         topmost_ = joint_of[as_index(topmost)];
         choose_posed_nodes(joint_of);
+        times_ = animation_->times;
+        if (rig_->characters.size() > 1) take_own_times();
         steps_ = posed_.size() + (animation_->more_steps ? animation_->more_steps(posed_) : 0);
         is_pivot_.resize(joints_.size());
         if (!rig_->scene.has_pivots) return;
@@ -90,7 +94,7 @@ class NodeMotion : public Motion {
     std::size_t in_file(int joint) const override { return rig_->named[as_index(nodes_[as_index(joint)])]; }
     int topmost() const override { return topmost_; }
     bool is_pivot(int joint) const override { return is_pivot_[as_index(joint)]; }
-    const MotionTimes& times() const override { return animation_->times; }
+    const MotionTimes& times() const override { return times_; }
     std::size_t posed() const override { return steps_; }
 
     void pose(double seconds, std::span<glm::dvec3> positions, std::span<glm::dquat> rotations) const override {
@@ -116,6 +120,22 @@ class NodeMotion : public Motion {
     }
 
   private:
+    /// Of several characters each is there from its own first key to its last; one with a single key, all the time.
+    void take_own_times() {
+        std::optional<std::pair<double, double>> own;
+        for (std::size_t i = 0; i < animation_->keyed.size(); ++i) {
+            const int node = animation_->moved[i];
+            if (std::ranges::find(posed_, node, &PosedNode::node) == posed_.end()) continue;
+            const auto [first, last] = animation_->keyed[i];
+            own = own ? std::pair(std::min(own->first, first), std::max(own->second, last)) : std::pair(first, last);
+        }
+        if (!own || own->first == own->second || (own->first == times_.first && own->second == times_.last)) return;
+        std::vector<double> keys;
+        std::ranges::copy_if(*times_.keys, std::back_inserter(keys),
+                             [&](double key) { return key >= own->first && key <= own->second; });
+        times_ = key_times({std::make_shared<const std::vector<double>>(std::move(keys))});
+    }
+
     /// Calls `visit` with each joint and what leads from its own axes to those of the file.
     template <class Visit>
     void each_joint(std::optional<double> seconds, const Visit& visit) const {
@@ -165,6 +185,7 @@ class NodeMotion : public Motion {
 
     std::shared_ptr<const Rig> rig_;
     const NodeAnimation* animation_;
+    MotionTimes times_;
     std::vector<Joint> joints_;
     std::vector<int> nodes_;  ///< by joint
     int topmost_ = 0;

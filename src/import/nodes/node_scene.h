@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -50,9 +51,11 @@ struct PosedNode {
 };
 
 struct NodeAnimation {
-    std::string name;                   ///< "#<index>" if the file gives none
-    MotionTimes times;                  ///< over all that it has, morph targets too
-    std::vector<int> moved;             ///< the nodes that it moves, ascending
+    std::string name;        ///< "#<index>" if the file gives none
+    MotionTimes times;       ///< over all that it has, morph targets too
+    std::vector<int> moved;  ///< the nodes that it moves, ascending
+    /// From the first key of each of those to its last, seconds; empty: that is not known.
+    std::vector<std::pair<double, double>> keyed{};
     std::vector<int> turned;            ///< those of them that it really turns, ascending; read where has_pivots
     std::vector<std::string> warnings;  ///< one sentence each
     std::string moves_nothing;          ///< why, where `moved` is empty: "moves morph targets only"

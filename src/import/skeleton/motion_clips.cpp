@@ -73,7 +73,7 @@ GuessedUnit guessed_unit(const BodySize& body) {
     GuessedUnit by_limbs = nearest_unit(body.limbs, kUnitsByLimbs);
     by_limbs.by_limbs = true;
     const auto off = [](const GuessedUnit& unit) { return std::abs(unit.height - kBodyHeight); };
-    return off(by_limbs) < off(by_height) ? by_limbs : by_height;
+    return by_limbs.metres != by_height.metres && off(by_limbs) < off(by_height) ? by_limbs : by_height;
 }
 
 /// How the axes of a file lead to those of its clips.

@@ -140,6 +140,9 @@ class PlanReader {
         if (yaml_.type() == YAML_DOCUMENT_START_EVENT) yaml_.fail("holds several documents ('---'); leave one plan");
         if (tracks_.empty()) yaml_.fail(schedule_line_, "the schedule has no step; add agents with t, x, y");
         TrackFile out = plan_of(tracks_.take_sorted(), file_, tracks_.take_spent());
+        if (has_heights_)
+            out.warnings.push_back(
+                {"the steps have heights (z), which are ignored: who passes above another meets them"});
         if (without_steps_ > 0) {
             out.warnings.push_back({counted(without_steps_, "agent has", "agents have") + " no step, such as " +
                                     in_quotes(without_step_) + "; left out"});
@@ -211,6 +214,7 @@ class PlanReader {
                 read_number("y", point.y, has_y, mobb::kMaxLength);
             } else {
                 if (key == kMergeKey && !yaml_.is_quoted()) fail_at_merge_key();
+                has_heights_ = has_heights_ || key == "z";
                 yaml_.pass_over();
                 yaml_.next();
                 yaml_.pass_over();
@@ -263,6 +267,7 @@ class PlanReader {
     std::size_t most_;  ///< steps that may still come
     TrackCollector tracks_{file_};
     int schedule_line_ = 1;
+    bool has_heights_ = false;
     int without_steps_ = 0;     ///< agents
     std::string without_step_;  ///< the first of them
     // By anchor, of what stands in the schedule.
