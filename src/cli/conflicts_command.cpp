@@ -30,6 +30,7 @@ using Layout = JsonWriter::Layout;
 
 struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
+    bool strict_motion = false;
 };
 
 /// Whether the clips of a motion file are of several characters. Throws InputError if one of them has several.
@@ -103,6 +104,42 @@ class People {
     int samples_ = 0;
 };
 
+/// When nobody was seen to move as one of two agents does (SourceFacts::invented), global seconds.
+class InventedMotion {
+  public:
+    InventedMotion(const Scene& scene, int a, int b) {
+        for (const int index : {a, b}) {
+            const Agent& agent = scene.agents[static_cast<std::size_t>(index)];
+            for (const auto& [from, to] : scene.clips[static_cast<std::size_t>(agent.clip)].facts.invented)
+                spans_.push_back({agent.placement.start + from, agent.placement.start + to});
+        }
+        std::ranges::sort(spans_, {}, &mobb::Interval::t0);
+    }
+
+    bool holds(double time) const { return covers({time, time}); }
+    bool covers(const mobb::Interval& interval) const {
+        double known = interval.t0;
+        for (const mobb::Interval& span : spans_) {
+            if (span.t0 > known + mobb::kMinOverlap) break;
+            if (span.t1 < known) continue;
+            known = span.t1;
+            if (known + mobb::kMinOverlap >= interval.t1) return true;
+        }
+        return false;
+    }
+
+  private:
+    std::vector<mobb::Interval> spans_;
+};
+
+/// Whether a conflict rests on it: where the two overlap deepest, or all the
+/// time.
+bool is_invented(const Scene& scene, const PeopleConflict& conflict) {
+    const InventedMotion invented(scene, conflict.deepest.a, conflict.deepest.b);
+    return invented.holds(conflict.deepest.time) ||
+           std::ranges::all_of(conflict.intervals, [&](const mobb::Interval& of) { return invented.covers(of); });
+}
+
 /// Conflicts of a run in which no play was forced: the simulator was told that they do not collide. Of no run none.
 std::optional<std::int64_t> unforced_in(const Scene& scene, const FitArguments& fit) {
     if (!scene.crowd) return std::nullopt;
@@ -116,6 +153,19 @@ struct Findings {
     const std::vector<mobb::PlacedTree>& crowd;
     const PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
+    std::vector<std::size_t> listed{};     ///< indices of conflicts
+    double seconds = 0;                    ///< of those
+
+    void list(bool strict_motion) {
+        for (std::size_t i = 0; i < conflicts.size(); ++i) {
+            if (strict_motion && is_invented(scene, conflicts[i])) continue;
+            listed.push_back(i);
+            if (strict_motion) seconds += conflicts[i].seconds();
+        }
+        if (!strict_motion) seconds = conflicts.seconds();
+    }
+    /// Of the file's speeds; empty: none.
+    std::string doubt() const { return scene.clips.front().facts.doubt; }
 
     const mobb::PlacedClip& clip(int agent) const { return crowd[static_cast<std::size_t>(agent)].placed_clip(); }
     /// Halfway between the two where they are closest.
@@ -127,9 +177,9 @@ struct Findings {
     /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
     std::optional<double> t0() const {
         const SceneClip& clip = scene.clips.front();
-        if (is_scene_file(scene.file) || !clip.facts.t0) return std::nullopt;
+        if (is_scene_file(scene.file)) return std::nullopt;
         // Of takes each has its own.
-        return *clip.facts.t0 - (clip.options.id ? 0 : clip.start);
+        return clip.facts.first_key ? std::optional(*clip.facts.first_key - clip.start) : clip.facts.t0;
     }
     int a_sample(const Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
@@ -159,10 +209,11 @@ void write_json(const Findings& findings) {
     out.members("file", shown_name(findings.scene.file), "t0", findings.t0(), "agents", findings.people.count());
     out.member("radius", common_radius(findings.scene));
     out.members("pairs", findings.conflicts.pairs(), "pairs_tested", findings.conflicts.pairs_tested());
-    out.member("seconds", findings.conflicts.seconds());
+    out.member("seconds", findings.seconds);
+    if (!findings.doubt().empty()) out.member("doubt", findings.doubt());
     if (findings.unforced) out.member("unforced", *findings.unforced);
     out.begin_array("conflicts");
-    for (std::size_t i = 0; i < findings.conflicts.size(); ++i) {
+    for (const std::size_t i : findings.listed) {
         const PeopleConflict conflict = findings.conflicts[i];
         const Conflict& deepest = conflict.deepest;
         out.begin_object(Layout::row);
@@ -171,6 +222,7 @@ void write_json(const Findings& findings) {
         out.members("least_clearance", deepest.least_clearance, "time", deepest.time);
         out.members("a_sample", findings.a_sample(deepest), "b_sample", findings.b_sample(deepest));
         out.member("position", findings.position(deepest));
+        if (is_invented(findings.scene, conflict)) out.member("invented", true);
         if (findings.of_plan(deepest)) write_plan_conflicts(out, findings.in_plan(deepest));
         out.end_object();
     }
@@ -200,9 +252,9 @@ std::string plan_conflicts_in_words(const std::vector<PlanConflict>& found) {
 
 void print_text(const Findings& findings) {
     const PeopleConflicts& conflicts = findings.conflicts;
-    const std::size_t listed = std::min(conflicts.size(), TextRows::kMost);
+    const std::size_t listed = std::min(findings.listed.size(), TextRows::kMost);
     for (std::size_t i = 0; i < listed; ++i) {
-        const PeopleConflict conflict = conflicts[i];
+        const PeopleConflict conflict = conflicts[findings.listed[i]];
         const Conflict& deepest = conflict.deepest;
         const glm::dvec2 position = findings.position(deepest);
         std::cout << cleaned(findings.people.name(conflict.a)) << " and " << cleaned(findings.people.name(conflict.b))
@@ -215,11 +267,17 @@ void print_text(const Findings& findings) {
         std::cout << " s; least clearance " << brief(deepest.least_clearance) << " m at " << brief(deepest.time)
                   << " s near " << place_in_words(position) << ", samples " << findings.a_sample(deepest) << " and "
                   << findings.b_sample(deepest)
+                  << (is_invented(findings.scene, conflict) ? "; rests on invented motion" : "")
                   << (findings.of_plan(deepest) ? plan_conflicts_in_words(findings.in_plan(deepest)) : "") << '\n';
     }
-    tell_left_out(std::cout, conflicts.size() - listed);
-    std::cout << conflict_count(conflicts.size(), findings.people.count(), conflicts.seconds()) << "; "
+    tell_left_out(std::cout, findings.listed.size() - listed);
+    std::cout << conflict_count(findings.listed.size(), findings.people.count(), findings.seconds) << "; "
               << conflicts.pairs_tested() << " of " << counted(conflicts.pairs(), "pair", "pairs") << " tested\n";
+    if (findings.listed.size() < conflicts.size()) {
+        std::cout << counted(conflicts.size() - findings.listed.size(), "conflict rests", "conflicts rest")
+                  << " on invented motion and is left out\n";
+    }
+    if (!findings.doubt().empty()) std::cout << "in doubt: " << cleaned(findings.doubt()) << '\n';
     if (findings.unforced.value_or(0) > 0)
         std::cout << counted(*findings.unforced, "contact", "contacts")
                   << " without a forced play: an answer was wrong, or the run was edited\n";
@@ -236,15 +294,19 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     const People people(scene.scene());
     const PeopleConflicts conflicts(crowd, people.of_agents(), arguments.fit.brute ? Search::direct : Search::trees,
                                     tell("tested", "pairs"));
-    const Findings findings{scene.scene(), people, crowd, conflicts, unforced};
+    Findings findings{scene.scene(), people, crowd, conflicts, unforced};
+    findings.list(arguments.strict_motion);
     arguments.json ? write_json(findings) : print_text(findings);
     flush_results();
-    return arguments.check && !conflicts.empty() ? kFailed : kDone;
+    return arguments.check && !findings.listed.empty() ? kFailed : kDone;
 }
 
 void add_conflicts_options(Command& command, ConflictsCommandArguments& arguments) {
     add_fitted_options(command, arguments, "The same as JSON", Brute::allowed);
     command.add_flag("--check", arguments.check, "Status 1 if there is a conflict");
+    command.add_flag("--strict-motion", arguments.strict_motion,
+                     "Without conflicts that rest on gaps that were filled, or "
+                     "on what is too fast");
 }
 
 }  // namespace

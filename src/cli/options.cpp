@@ -171,12 +171,18 @@ void add_import_options(Command& command, ImportOptions& options) {
         "radii",
         "R");
     add("--columns", &ImportOptions::columns, as_it_is,
-        "Which columns of a table are id, t, frame, x, y and r, or how they are worked out: id=trackId,t=frame/25",
+        "Which columns of a table are id, t, frame, x, y, r and class, or how they are worked out: "
+        "id=trackId,t=frame/25",
         "C");
     add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),
         "What a disk does until the next sample: held, linear (tracks of people: linear; else held); inline samples "
         "too",
         "M");
+    command
+        .add_flag(
+            "--keep-jumps", [&options](bool keep) { options.keep_jumps = keep; },
+            "Tracks stay whole where they jump, or pause, as nobody does")
+        .group("Import (over the scene's, for clips with a source)");
     add("--id", &ImportOptions::id, as_it_is, "The track to take, of a file with several", "ID");
     add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
 }

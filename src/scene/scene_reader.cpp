@@ -90,6 +90,8 @@ void read_option(const JsonPlace& place, std::string_view, mobb::Motion& to) {
     to = *motion;
 }
 
+void read_option(const JsonPlace& place, std::string_view, bool& to) { to = place.boolean(); }
+
 /// The name of a track: a string, or a whole number, which a file of tracks has as decimal digits.
 std::string read_id(const JsonPlace& place) {
     if (!place.is_number()) return place.string();
@@ -567,7 +569,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
         if (!imported.root.empty()) clip.options.root = imported.root;
         name_own_radius(clip);
-        if (!imported.id.empty()) {
+        if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
         }

@@ -251,6 +251,67 @@ TEST(Conflicts, AHeldCrowdIsWarnedOfOnceByItsLongestStep) {
     EXPECT_NE(run.err.find("--motion linear"), std::string::npos);
 }
 
+// 1 is not seen from 0.5 to 3.5 s, when it would meet 2; both meet 3 where they are seen.
+TEST(Conflicts, WhatRestsOnInventedMotionIsMarkedAndLeftOut) {
+    const TempFolder folder;
+    std::string text = "id,t,x,y\n";
+    for (int i = 0; i <= 40; ++i) {
+        const double t = 0.1 * i;
+        if (i <= 5 || i >= 35) text += "1," + format_double(t) + ',' + format_double(t) + ",0\n";
+        text += "2," + format_double(t) + ',' + format_double(4 - t) + ",0.1\n";
+        text += "3," + format_double(t) + ",3.8,0.1\n";
+    }
+    const std::string file = folder.write("crowd.csv", text);
+    const json found = json_of({"conflicts", file});
+    ASSERT_EQ(found["conflicts"].size(), 3u);
+    int marked = 0;
+    for (const json& conflict : found["conflicts"]) {
+        const bool is_marked = conflict.contains("invented");
+        marked += is_marked;
+        EXPECT_EQ(is_marked, conflict["a"] == "1" && conflict["b"] == "2") << conflict;
+    }
+    EXPECT_EQ(marked, 1);
+    const json strict = json_of({"conflicts", file, "--strict-motion"});
+    EXPECT_EQ(strict["conflicts"].size(), 2u);
+    EXPECT_LT(strict["seconds"], found["seconds"]);
+    const Result run = run_program({"conflicts", file, "--strict-motion"});
+    EXPECT_EQ(run.out.find("rests on invented motion;"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("1 conflict rests on invented motion and is left out\n"), std::string::npos) << run.out;
+    EXPECT_NE(run_program({"conflicts", file}).out.find("; rests on invented motion\n"), std::string::npos);
+}
+
+TEST(Conflicts, NoConflictStandsBesideADoubtThatIsNotSaid) {
+    const TempFolder folder;
+    std::string text = "id,t,x,y\n";
+    for (int i = 0; i <= 40; ++i) text += "1," + format_double(0.1 * i) + ',' + format_double(100.0 * i) + ",0\n";
+    const std::string file = folder.write("crowd.csv", text);
+    const Result refused = run_program({"conflicts", file});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("give unit 0.001"), std::string::npos) << refused.err;
+    EXPECT_EQ(run_program({"conflicts", file, "--unit", "0.001"}).out,
+              "0 conflicts among 1 agent, 0 s in all; 0 of 0 pairs tested\n");
+    const Result insisted = run_program({"conflicts", file, "--unit", "m"});
+    EXPECT_NE(insisted.out.find("\nin doubt: the median speed of who moves is 1000 m/s"), std::string::npos)
+        << insisted.out;
+    EXPECT_TRUE(json_of({"conflicts", file, "--unit", "m"})["doubt"].is_string());
+}
+
+TEST(Conflicts, KeptJumpsAreOneTrack) {
+    const TempFolder folder;
+    std::string text = "id,t,x,y\n";
+    for (int i = 0; i <= 40; ++i)
+        text += "17," + format_double(0.1 * i + (i > 20 ? 60 : 0)) + ',' + format_double(0.1 * i) + ",0\n";
+    const std::string file = folder.write("crowd.csv", text);
+    EXPECT_EQ(json_of({"conflicts", file})["agents"], 2);
+    EXPECT_EQ(json_of({"conflicts", file, "--keep-jumps"})["agents"], 1);
+    const std::string scene = folder.write(
+        "a.json", R"({"mobbscope": 1, "clips": {"a": {"source": "crowd.csv", "id": "17", "keep_jumps": true},
+                     "b": {"source": "crowd.csv", "id": "17#2"}}})");
+    const json info = json_of({"info", scene});
+    EXPECT_EQ(info["clips"][0]["samples"], 41 + 600);
+    EXPECT_EQ(info["clips"][1]["samples"], 20);
+}
+
 TEST(Conflicts, WithoutAgentsItIsRefused) {
     const TempFolder folder;
     const Result run =

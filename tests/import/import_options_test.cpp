@@ -29,7 +29,8 @@ TEST(ImportOption, TextsAreReadBackAsTheyWereWritten) {
     const std::vector<std::pair<const char*, const char*>> texts{
         {"animation", "Walk"}, {"root", "Left Hip"}, {"fps", "29.97"},     {"unit", "cm"},
         {"up", "z"},           {"trim", "0.5 3.2"},  {"id", "17"},         {"origin", "start_heading"},
-        {"radius", "0"},       {"dt", "0.04"},       {"motion", "linear"}, {"columns", "t=frame/25"}};
+        {"radius", "0"},       {"dt", "0.04"},       {"motion", "linear"}, {"columns", "t=frame/25"},
+        {"keep_jumps", "yes"}};
     ASSERT_EQ(texts.size(), std::size(kImportOptions)) << "every option";
     for (const auto& [key, text] : texts) {
         const ImportOption& option = *import_option(key);
@@ -52,6 +53,7 @@ TEST(ImportOption, WhatIsNoneOrOutOfRangeIsNamed) {
     EXPECT_NE(complaint("trim", "3 2").find("0 <= A < B"), std::string::npos);
     EXPECT_EQ(complaint("origin", "here"), "origin is keep, start or start_heading, not 'here'");
     EXPECT_EQ(complaint("motion", "fast"), "motion is held or linear, not 'fast'");
+    EXPECT_EQ(complaint("keep_jumps", "1"), "keep_jumps is yes or no, not '1'");
 }
 
 std::vector<std::string> values_of(const OptionOffer& offer) {

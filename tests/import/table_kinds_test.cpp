@@ -259,8 +259,9 @@ TEST(TableKinds, WhatIsMissingIsSaid) {
               "f.csv: line 4, column 2 (t): the time does not come after 1 of the row before; sort the rows and remove "
               "doubles, or, if these are several tracks, say which column names them, such as columns id=who");
     EXPECT_EQ(csv_clips(tracks, with_columns("id=who")).size(), 2u);
-    EXPECT_NE(csv_refusal("id,time,x,y\n1,2024-05-01 12:00:00.1,0,0\n").find("is a time of day; give seconds"),
-              std::string::npos);
+    EXPECT_NE(
+        csv_refusal("id,time,x,y\n1,2024-05-41 12:00:00.1,0,0\n").find("0.25, or a time like 2021-06-01T12:00:00"),
+        std::string::npos);
     EXPECT_NE(csv_refusal("# a\n# b\n").find("blank lines and comments"), std::string::npos);
 }
 

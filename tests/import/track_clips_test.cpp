@@ -1,6 +1,7 @@
 // Tracks of a table or a trajectory file: when they start, their step, what lies in gaps, what trim takes.
 #include "imported.h"
 
+#include <base/text.h>
 #include <import/import.h>
 #include <import/tracks/text_rows.h>
 #include <import/tracks/track_steps.h>
@@ -23,14 +24,14 @@ std::string all_said(const ImportedClip& clip) {
     return out;
 }
 
-/// A row a number of `steps`, at first + step * dt as printf writes it; x is the step.
+/// A row a number of `steps`, at first + step * dt as printf writes it; x is step * dt, a metre a second.
 std::string rows_of_track(const std::string& id, double first, double dt, const std::vector<int>& steps,
                           const char* format) {
     std::string out;
     for (const int step : steps) {
         char time[64];
         std::snprintf(time, sizeof time, format, first + step * dt);
-        out += id + ',' + time + ',' + std::to_string(step) + ",0,0.2\n";
+        out += id + ',' + time + ',' + format_double(step * dt) + ",0,0.2\n";
     }
     return out;
 }
@@ -68,17 +69,17 @@ TEST(TrackClips, TheStepIsFoundHoweverTimesAreRounded) {
     for (const auto& [first, dt, format] : clocks) {
         SCOPED_TRACE(std::to_string(first) + ' ' + std::to_string(dt) + ' ' + format);
         const auto read = csv_clips(kTracksHead + rows_of_track("a", first, dt, steps_up_to(300), format) +
-                                    rows_of_track("b", first, dt, {100, 101, 102, 110, 111, 200}, format) +
+                                    rows_of_track("b", first, dt, {100, 101, 102, 110, 111, 130}, format) +
                                     rows_of_track("c", first, dt, {7}, format));
         ASSERT_EQ(read.size(), 3u);
         EXPECT_EQ(read[0].clip->count(), 301);
         EXPECT_EQ(read[0].facts.warnings.size(), 0u) << all_said(read[0]);
         EXPECT_NEAR(read[0].clip->dt(), dt, 1e-4 * dt);
-        EXPECT_EQ(read[1].clip->count(), 101) << "gaps are filled at the file's step";
+        EXPECT_EQ(read[1].clip->count(), 31) << "gaps are filled at the file's step";
         EXPECT_NEAR(read[1].clip->dt(), dt, 1e-3 * dt);
-        EXPECT_EQ(all_said(read[1]), "there are gaps, which are filled linearly (95 samples, line 306)\n");
-        for (int i = 0; i < 101; ++i)
-            EXPECT_NEAR(read[1].clip->samples()[static_cast<std::size_t>(i)].x, 100 + i, 1e-9);
+        EXPECT_EQ(all_said(read[1]), "there are gaps, which are filled linearly (25 samples, line 306)\n");
+        for (int i = 0; i < 31; ++i)
+            EXPECT_NEAR(read[1].clip->samples()[static_cast<std::size_t>(i)].x / dt, 100 + i, 1e-9);
         EXPECT_NEAR(read[1].start, 100 * dt, 1e-3);
         EXPECT_EQ(read[2].clip->count(), 1);
         EXPECT_NEAR(read[2].clip->dt(), dt, 1e-3 * dt) << "a row alone takes the file's step";
@@ -103,7 +104,7 @@ TEST(TrackClips, TimesInMillisecondsAreInStepFromWhicheverFrame) {
                 ASSERT_EQ(clip.clip->count(), clip.id.starts_with("gaps") ? 61 : 71);
                 EXPECT_NEAR(clip.clip->dt(), 1 / rate, 2e-5);
                 for (int i = 0; i < clip.clip->count(); ++i)
-                    EXPECT_NEAR(clip.clip->samples()[static_cast<std::size_t>(i)].x, i, 1e-9);
+                    EXPECT_NEAR(clip.clip->samples()[static_cast<std::size_t>(i)].x * rate, i, 1e-9);
             }
         }
     }
@@ -200,9 +201,9 @@ TEST(TrackClips, TrimIsOfTheFilesTimeAndStartsStay) {
         EXPECT_EQ(clip.facts.t0, 100);
     }
     EXPECT_EQ(read[0].clip->count(), 3);
-    EXPECT_EQ(read[0].clip->samples()[0].x, 8);
+    EXPECT_EQ(read[0].clip->samples()[0].x, 4);
     EXPECT_EQ(read[1].clip->count(), 4);
-    EXPECT_EQ(read[1].clip->samples()[0].x, 2) << "within the gap";
+    EXPECT_EQ(read[1].clip->samples()[0].x, 1) << "within the gap";
     EXPECT_EQ(trimmed(4.2, 99)[0].start, 4.5) << "samples stay where they are";
     EXPECT_EQ(trimmed(4.2, 99)[0].clip->count(), 2);
     EXPECT_EQ(trimmed(19.999, 20.1)[0].start, 20);
@@ -271,7 +272,7 @@ TEST(TrackSteps, TheMostFrequentOneCounts) {
     const auto step_of = [](const std::vector<double>& frames) {
         Track track{"a", {}};
         for (const double frame : frames) track.points.push_back({frame, 0, 0});
-        return most_frequent_step({&track, 1});
+        return most_frequent_step(track.points);
     };
     EXPECT_EQ(step_of({5}), std::nullopt);
     EXPECT_EQ(step_of({0, 10, 20, 30, 60}), 10);
@@ -291,7 +292,7 @@ TEST(TrackSteps, PointsAreInStepOrNot) {
     const auto grid = [](const std::vector<double>& frames, double usual) {
         Track track{"a", {}};
         for (const double frame : frames) track.points.push_back({frame, 0, 0});
-        return grid_of(track, usual);
+        return grid_of(track.points, usual);
     };
     EXPECT_TRUE(grid({0, 1, 2.019, 3}, 1).in_step);
     EXPECT_FALSE(grid({0, 1, 2.03, 3, 4}, 1).in_step);

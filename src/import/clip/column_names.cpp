@@ -26,8 +26,11 @@ constexpr Unit kLengths[] = {
     {"cm", 0.01},  {"centimeter", 0.01},  {"centimetre", 0.01},  {"centimeters", 0.01},  {"centimetres", 0.01},
     {"mm", 0.001}, {"millimeter", 0.001}, {"millimetre", 0.001}, {"millimeters", 0.001}, {"millimetres", 0.001},
     {"ft", kFoot}, {"foot", kFoot},       {"feet", kFoot}};
-constexpr Unit kTimes[] = {{"s", 1},      {"sec", 1},      {"second", 1},          {"seconds", 1},
-                           {"ms", 0.001}, {"msec", 0.001}, {"millisecond", 0.001}, {"milliseconds", 0.001}};
+constexpr Unit kTimes[] = {{"s", 1},       {"sec", 1},      {"second", 1},          {"seconds", 1},
+                           {"ms", 0.001},  {"msec", 0.001}, {"millisecond", 0.001}, {"milliseconds", 0.001},
+                           {"us", 1e-6},   {"usec", 1e-6},  {"microsecond", 1e-6},  {"microseconds", 1e-6},
+                           {"ns", 1e-9},   {"nsec", 1e-9},  {"nanosecond", 1e-9},   {"nanoseconds", 1e-9},
+                           {"minute", 60}, {"minutes", 60}, {"hour", 3600},         {"hours", 3600}};
 
 std::optional<double> size_of(std::span<const Unit> units, std::string_view word) {
     const auto at = std::ranges::find(units, word, &Unit::word);
@@ -54,7 +57,7 @@ const std::vector<Aliases>& aliases() {
          true},
         {Column::t, {"t", "time", "seconds", "secs", "sec", "simtime", "timesteptime"}},
         {Column::t, {"globaltime"}, false, "ms"},
-        {Column::t, {"elapsedtime", "timestamp"}, true},
+        {Column::t, {"elapsedtime", "timestamp", "datetime"}, true},
         {Column::t, {"milliseconds"}, true, "ms"},
         {Column::frame,
          {"frame", "fr", "frameid", "frameno", "framenr", "framenum", "framenumber", "frameindex", "frameidx"}},

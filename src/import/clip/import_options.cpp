@@ -15,6 +15,7 @@ std::string text_of(double value) { return format_double(value); }
 std::string text_of(const Radius& value) { return radius_text(value); }
 std::string text_of(Origin value) { return std::string(name(value)); }
 std::string text_of(mobb::Motion value) { return std::string(name(value)); }
+std::string text_of(bool value) { return value ? "yes" : "no"; }
 std::string text_of(const std::pair<double, double>& value) {
     return format_double(value.first) + ' ' + format_double(value.second);
 }
@@ -46,6 +47,12 @@ void read_text(const ImportOption&, std::string_view text, std::optional<Origin>
 void read_text(const ImportOption&, std::string_view text, std::optional<mobb::Motion>& to) {
     to = mobb::motion_from_name(text);
     if (!to) throw std::invalid_argument("motion is held or linear, not " + in_quotes(text));
+}
+
+void read_text(const ImportOption& option, std::string_view text, std::optional<bool>& to) {
+    if (text != "yes" && text != "no")
+        throw std::invalid_argument(std::string(option.key) + " is yes or no, not " + in_quotes(text));
+    to = text == "yes";
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ struct ImportOption {
     const char* unit;   ///< of a number: "m"
     std::variant<std::optional<std::string> ImportOptions::*, std::optional<double> ImportOptions::*,
                  std::optional<std::pair<double, double>> ImportOptions::*, std::optional<Origin> ImportOptions::*,
-                 std::optional<mobb::Motion> ImportOptions::*, std::optional<Radius> ImportOptions::*>
+                 std::optional<mobb::Motion> ImportOptions::*, std::optional<Radius> ImportOptions::*,
+                 std::optional<bool> ImportOptions::*>
         member;
     bool for_skeletons, for_tracks;  ///< of both kinds: tables and trajectories
     bool of_file;                    ///< what holds for one clip of a file usually holds for all of them
@@ -65,10 +66,12 @@ inline constexpr ImportOption kImportOptions[] = {
      &ImportOptions::radius, true, true, true},
     {"dt", "Frame time", "Seconds between rows without times, or from one frame number to the next", "s",
      &ImportOptions::dt, false, true, true},
-    {"columns", "Columns", "Which columns of a table are id, t, frame, x, y and r: id=trackId,t=frame/25", "",
+    {"columns", "Columns", "Which columns of a table are id, t, frame, x, y, r and class: id=trackId,t=frame/25", "",
      &ImportOptions::columns, false, true, true},
     {"motion", "Motion", "What a disk does until the next sample: it stays, or runs straight to it", "",
      &ImportOptions::motion, true, true, true},
+    {"keep_jumps", "Jumps", "Whether tracks stay whole where they jump or pause as nobody does", "",
+     &ImportOptions::keep_jumps, false, true, true},
 };
 
 /// Null if there is none.

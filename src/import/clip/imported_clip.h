@@ -37,6 +37,8 @@ struct ImportOptions {
     std::optional<std::string> columns{};
     /// What a disk does until the next sample; default linear for trajectories, plans and CSV with ids, else held.
     std::optional<mobb::Motion> motion{};
+    /// Whether tracks stay whole that jump, or pause, as nobody does; default no.
+    std::optional<bool> keep_jumps{};
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
@@ -83,10 +85,16 @@ struct SourceFacts {
     std::string up{};                             ///< the axis of the file that points up: "y", "z", "-y", ...
     std::string up_why{};                         ///< why it is, where no option names it: "as the file says"
 
-    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
-    /// Seconds on the file's own clock: of tracks its earliest point, which is time 0 of the clock of all of them; of
-    /// an animation its earliest key, which is time 0 of its clip. None: neither.
+    std::optional<double> first_key{};  ///< seconds in the file: when the animation's earliest key is
+
+    // Of tracks:
+    std::string label{};  ///< its class, "Biker"; empty where the file has none
+    /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
+    /// clip is no track.
     std::optional<double> t0{};
+    /// Seconds of the clip, in order: where nobody was seen to move like that, as a gap was filled or it is too fast.
+    std::vector<std::pair<double, double>> invented{};
+    std::string doubt{};  ///< why the speeds of the whole file are nobody's; empty: they are somebody's
 
     friend bool operator==(const SourceFacts&, const SourceFacts&) = default;
 };

@@ -66,7 +66,13 @@ std::string_view RowReader::identifier(const Cells& cells) {
     const std::string_view text = cells.text(place);
     if (text.empty()) cells.fail(place, "the field is empty; name the track");
     if (!is_utf8(text)) cells.fail(place, "the name is not UTF-8 text; save the file as UTF-8");
-    return text;
+    if (scopes.empty()) return text;
+    scoped_id_.clear();
+    for (const std::size_t scope : scopes) {
+        if (!is_utf8(cells.text(scope))) cells.fail(scope, "the name is not UTF-8 text; save the file as UTF-8");
+        scoped_id_.append(cells.text(scope)).append("/");
+    }
+    return scoped_id_.append(text);
 }
 
 std::string_view RowReader::label(const Cells& cells) const {
@@ -132,7 +138,11 @@ TrackFile RowReader::finish() {
         return time_word() + ' ' + format_double(row.frame) + (out.timed ? rounded_time_hint(row.frame) : "") +
                " of track " + in_quotes(track.id) + " stands already in line ";
     };
-    out.tracks = !out.alone && out.has_times ? tracks_.take_sorted(twice) : tracks_.take();
+    out.tracks = !out.alone && out.has_times ? tracks_.take_sorted(twice, true) : tracks_.take();
+    if (const std::size_t repeated = tracks_.repeated(); repeated > 0) {
+        out.warnings.push_back({counted(repeated, "row repeats another", "rows repeat others") + " and count once", "",
+                                tracks_.first_repeated()});
+    }
     if (!out.has_times) {
         for (Track& track : out.tracks) {
             for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);

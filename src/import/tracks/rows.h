@@ -57,9 +57,10 @@ class RowReader {
     /// Tracks, what kind of times they have, and what was left out. Where there is an id they come in any order.
     TrackFile finish();
 
-    std::string_view whole_in{};      ///< a format whose ids and frames are whole numbers; empty: any text is an id
-    std::vector<std::size_t> axes{};  ///< columns of semi-axes: the radius is the largest of them and of r
-    std::string order_hint{};         ///< ends the message that rows without ids are not in order
+    std::string_view whole_in{};        ///< a format whose ids and frames are whole numbers; empty: any text is an id
+    std::vector<std::size_t> scopes{};  ///< columns that stand before the id: it is one's within a recording alone
+    std::vector<std::size_t> axes{};    ///< columns of semi-axes: the radius is the largest of them and of r
+    std::string order_hint{};           ///< ends the message that rows without ids are not in order
 
   private:
     bool has(Column column) const { return (*this)[column].has_value(); }
@@ -79,6 +80,7 @@ class RowReader {
     bool in_milliseconds_ = true;  ///< all times
     std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
     std::string id_text_{};
+    std::string scoped_id_{};
     std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
     int first_empty_ = 0;               ///< line
 };

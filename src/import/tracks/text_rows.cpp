@@ -1,6 +1,7 @@
 // Rows of text: which columns a header, a comment or a format names, and the cells of lines.
 #include <import/clip/column_choice.h>
 #include <import/clip/sampling.h>
+#include <import/tracks/clock_text.h>
 #include <import/tracks/remarks.h>
 #include <import/tracks/rows.h>
 #include <import/tracks/text_rows.h>
@@ -125,8 +126,13 @@ std::size_t numbers_in(std::span<const Field> fields) {
 /// One pass over the text of a file, line by line.
 class TextRows final : public Cells {
   public:
-    TextRows(std::string_view text, const std::string& file, const ImportOptions& options)
-        : Cells(file), is_blank_(text.empty()), lines_(text, file), options_(options), rows_(file) {}
+    /// `scoped`: columns that tell recordings or scenes belong to the ids.
+    TextRows(std::string_view text, const std::string& file, const ImportOptions& options, bool scoped = false)
+        : Cells(file), is_blank_(text.empty()), lines_(text, file), options_(options), rows_(file), scoped_(scoped) {}
+
+    /// Of a table whose header was read: whether it has such columns, and whether one is known to need them.
+    bool has_scopes() const { return !scopes_.empty(); }
+    bool needs_scopes() const { return needs_scopes_; }
 
     TrackFile table() {
         const bool at_row = read_header();
@@ -140,9 +146,12 @@ class TextRows final : public Cells {
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         TrackFile out = finished();
         out.format = "csv";
+        if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
+            out.time_column = names_[time.front()];
         out.header_line = header_line_;
         out.fps_is_rate = rows_[Column::frame].has_value();
         if (out.fps_is_rate) out.rate = remarks_.rate();
+        if (frames_are_chosen_ && !out.rate) out.rate = 1;
         out.unit_assumption = unit_remark();
         out.unit = unit_;
         return out;
@@ -194,17 +203,18 @@ class TextRows final : public Cells {
             decimal_commas_ = true;
             if (const std::optional<double> read = parse_double(with_point)) return *read;
         }
-        const bool is_clock = field.find(':') != std::string_view::npos;
-        fail(column, in_quotes(field) + (is_clock ? " is a time of day; give seconds, such as 0.25"
-                                                  : " is not a finite number; write it like 0.25"));
+        const std::optional<ColumnFormula>& time = rows_[Column::t];
+        const bool is_time = time && std::ranges::count(time->columns(), column) > 0;
+        if (const std::optional<double> clock = is_time ? seconds_of_clock(field) : std::nullopt) {
+            const std::optional<double> day =
+                date_ && is_time_of_day(field) ? seconds_of_clock(fields_[*date_].text) : std::optional(0.0);
+            if (!day) fail(*date_, in_quotes(fields_[*date_].text) + " is not a date; write it like 2021-06-01");
+            return *clock + *day;
+        }
+        fail(column, in_quotes(field) + " is not a finite number; write it like 0.25" +
+                         (is_time ? ", or a time like 2021-06-01T12:00:00" : ""));
     }
-    std::string_view text(std::size_t column) const override {
-        std::string_view text = fields_[column].text;
-        // Of words in quotes these belong to them.
-        if (separator_ == ' ' && text.size() >= 2 && text.front() == '"' && text.back() == '"')
-            text = text.substr(1, text.size() - 2);
-        return text;
-    }
+    std::string_view text(std::size_t column) const override { return fields_[column].text; }
     bool is_empty(std::size_t column) const override {
         const auto& [field, known] = fields_[column];
         return std::isnan(known) && (field.empty() || field == "?" || lower(field) == "nan");
@@ -292,7 +302,36 @@ class TextRows final : public Cells {
 
     void add_row() {
         split_row();
+        if (std::exchange(counts_time_, false)) scale_time();
+        if (has_scopes() && !scoped_ && !needs_scopes_) {
+            const std::string_view scope = text(scopes_.front());
+            if (rows_.empty()) first_scope_ = scope;
+            needs_scopes_ = !is_weak_scope_ && scope != first_scope_;
+        }
         rows_.add(*this);
+    }
+
+    /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.
+    void scale_time() {
+        const std::size_t column = rows_[Column::t]->columns().front();
+        if (!parse_double(fields_[column].text)) return;
+        constexpr double kOfMilliseconds = 1e11;
+        constexpr double kThousand = 1000;
+        double factor = 1;
+        std::string_view unit = "seconds";
+        const double size = std::abs(number(column));
+        for (const std::string_view finer : {"milliseconds", "microseconds", "nanoseconds"}) {
+            if (size * factor < kOfMilliseconds) break;
+            factor /= kThousand;
+            unit = finer;
+        }
+        if (factor < 1) rows_[Column::t].emplace(column, factor);
+        if (factor < 1 || is_weak_time_) {
+            warnings_.push_back({"the column " + in_quotes(names_[column]) + " is taken for " + std::string(unit) +
+                                     "; give columns (t=" + names_[column] + "/1000) if it counts " +
+                                     (factor < 1 ? "others" : "milliseconds"),
+                                 "columns"});
+        }
     }
 
     // ---- the header of a table
@@ -388,7 +427,38 @@ class TextRows final : public Cells {
                                 ? ". Latitudes and longitudes are degrees: turn them into metres first"
                                 : also_by_option(needed)));
         }
+        const std::optional<std::size_t> time = rows_[Column::t] ? rows_[Column::t]->only_column() : std::nullopt;
+        const std::optional<KnownColumn> named = time ? known_column(names_[*time]) : std::nullopt;
+        if (options_.columns && named && named->column == Column::frame) {
+            // Frame numbers, if fps says how many are a second.
+            rows_[Column::frame] = std::exchange(rows_[Column::t], std::nullopt);
+            frames_are_chosen_ = true;
+        }
         if (rows_[Column::t]) rows_[Column::frame].reset();
+        date_ = rows_[Column::t] ? column_with("date") : std::nullopt;
+        find_scopes();
+    }
+
+    void find_scopes() {
+        if (header_line_ == 0 || !rows_[Column::id] || options_.columns) return;
+        constexpr std::array<std::string_view, 12> kScopes{"recordingid", "recording", "sceneid",    "scene",
+                                                           "caseid",      "case",      "sequenceid", "sessionid",
+                                                           "videoid",     "video",     "runid",      "location"};
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            const std::string word = plain_name(names_[i]).word;
+            if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
+            // A room is no recording, unless the ids say so.
+            is_weak_scope_ = (scopes_.empty() || is_weak_scope_) && word == "location";
+            scopes_.push_back(i);
+        }
+        if (!scoped_ || scopes_.empty()) return;
+        rows_.scopes = scopes_;
+        std::vector<std::string> said;
+        for (const std::size_t scope : scopes_) said.push_back(names_[scope]);
+        warnings_.push_back({"ids are one's within " + quoted_list(said) +
+                                 " alone and are told with it, as '0/17'; all are in one place and by one clock: leave "
+                                 "out what is not",
+                             "columns"});
     }
 
     bool has_word(std::string_view word) const { return column_with(word).has_value(); }
@@ -463,12 +533,8 @@ class TextRows final : public Cells {
         const KnownColumn& is = known.front();
         if (column == Column::t) {
             rows_[column].emplace(found.front(), is.scale);
-            if (is.is_weak && !is.says_unit) {
-                warnings_.push_back({"the column " + in_quotes(names_[found.front()]) +
-                                         " is taken for seconds; give columns (t=" + names_[found.front()] +
-                                         "/1000) if it counts milliseconds",
-                                     "columns"});
-            }
+            counts_time_ = !is.says_unit && !is_chosen;
+            is_weak_time_ = is.is_weak;
             return;
         }
         // All lengths are in the unit of the first column that says one.
@@ -534,6 +600,8 @@ class TextRows final : public Cells {
             const std::optional<ColumnFormula>& made = rows_[column];
             for (const std::size_t at : made ? made->columns() : std::vector<std::size_t>()) used[at] = true;
         }
+        for (const std::size_t scope : rows_.scopes) used[scope] = true;
+        if (date_) used[*date_] = true;
         std::size_t unnamed = 0;
         for (std::size_t i = 0; i < names_.size(); ++i) {
             if (used[i]) continue;
@@ -753,6 +821,12 @@ class TextRows final : public Cells {
     std::vector<ImportWarning> warnings_;
     Remarks remarks_;
     mutable bool decimal_commas_ = false;
+    bool counts_time_ = false, is_weak_time_ = false;  ///< t has no unit; its name may mean something else
+    bool frames_are_chosen_ = false;                   ///< the option columns says that t is a column of frames
+    std::optional<std::size_t> date_;                  ///< the column of dates beside times of day
+    std::vector<std::size_t> scopes_;                  ///< columns within which ids are one's
+    bool scoped_, is_weak_scope_ = false, needs_scopes_ = false;
+    std::string first_scope_;
 
     // Of rows of numbers alone:
     const RowFormat* format_ = nullptr;
@@ -818,7 +892,14 @@ bool looks_like_text_tracks(std::string_view text) {
 std::span<const RowFormat> row_formats() { return kRowFormats; }
 
 TrackFile parse_csv(std::string_view text, const std::string& file, const ImportOptions& options) {
-    return TextRows(text, file, options).table();
+    TextRows rows(text, file, options);
+    try {
+        TrackFile out = rows.table();
+        if (!rows.needs_scopes()) return out;
+    } catch (const InputError&) {
+        if (!rows.has_scopes()) throw;
+    }
+    return TextRows(text, file, options, true).table();
 }
 
 TrackFile parse_text_tracks(std::string_view text, const std::string& file) {

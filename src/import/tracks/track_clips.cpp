@@ -1,5 +1,6 @@
 #include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
+#include <import/tracks/sanity.h>
 #include <import/tracks/track_steps.h>
 #include <import/tracks/tracks.h>
 
@@ -171,14 +172,17 @@ class TrackClipMaker {
                                         format_double(mobb::kMaxTime) + "; check them");
         }
         if (file.timed) check_file_times(usual_step(), std::max(std::abs(clock_.t0()), std::abs(clock_.end())));
+        if (options.unit && *options.unit != "auto") common_.unit = *metres_per_unit(*options.unit);
+        const bool is_said = options.unit || (options.dt && !file.timed);
+        judged_ = judge(file, {common_.unit, frame_time(), clock_.usual_step(), is_said, options.keep_jumps == true});
+        common_.warnings.insert(common_.warnings.end(), judged_.findings.begin(), judged_.findings.end());
+        common_.doubt = judged_.doubt;
         if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
         if (!file.has_times && !file.alone) {
             common_.warnings.push_back({"the rows have no times: all tracks start together, with a row every " +
                                         brief(frame_time()) + " s; name a column t if they do not"});
         }
-        if (options.unit && *options.unit != "auto") {
-            common_.unit = *metres_per_unit(*options.unit);
-        } else if (!file.unit_assumption.empty()) {
+        if ((!options.unit || *options.unit == "auto") && !file.unit_assumption.empty()) {
             common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
@@ -197,15 +201,19 @@ class TrackClipMaker {
     double frame_time() const { return clock_.seconds(1); }
     double usual_step() const { return clock_.seconds(clock_.usual_step()); }
 
+    const JudgedTracks& judged() const { return judged_; }
+
     /// Whether the points of every track are whole steps apart.
     bool is_in_step() const {
-        return std::ranges::all_of(file_.tracks, [this](const Track& track) { return grid_of(track).in_step; });
+        return std::ranges::all_of(judged_.parts,
+                                   [this](const TrackPart& part) { return grid_of(part.points).in_step; });
     }
 
     /// Nothing if the track is not there in the time that is taken.
-    std::optional<ImportedClip> make(const Track& track) {
-        const std::span<const TrackPoint> points = track.points;
-        TrackGrid grid = grid_of(track);
+    std::optional<ImportedClip> make(const TrackPart& part) {
+        const Track& track = *part.track;
+        const std::span<const TrackPoint> points = part.points;
+        TrackGrid grid = grid_of(points);
         SourceFacts facts = common_;
         facts.label = track.label;
         facts.frames = static_cast<int>(points.size());
@@ -252,11 +260,12 @@ class TrackClipMaker {
         put_at_origin(samples, options_.origin.value_or(Origin::keep));
 
         ImportedClip out;
-        out.id = track.id;
+        out.id = part.id;
         if (!file_.alone)
             out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
         out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(usual_motion(file_)));
         out.facts = std::move(facts);
+        out.facts.invented = invented(part, grid, begin, out.clip->duration());
         return out;
     }
 
@@ -264,9 +273,36 @@ class TrackClipMaker {
     /// Rows of times of their own, and rows without any, are the samples.
     bool has_samples() const { return file_.timed || !file_.has_times; }
 
-    TrackGrid grid_of(const Track& track) const {
-        if (!file_.alone) return mobbscope::grid_of(track, clock_.usual_step(), file_.rounding);
-        return grid_of_all(track, clock_.usual_step(), file_.rounding);
+    TrackGrid grid_of(std::span<const TrackPoint> points) const {
+        if (!file_.alone) return mobbscope::grid_of(points, clock_.usual_step(), file_.rounding);
+        return grid_of_all(points, clock_.usual_step(), file_.rounding);
+    }
+
+    /// SourceFacts::invented of a clip whose first sample is `begin` seconds after the first point. Of uneven tracks
+    /// only what lies in pauses was not seen.
+    std::vector<std::pair<double, double>> invented(const TrackPart& part, const TrackGrid& grid, double begin,
+                                                    double duration) const {
+        std::vector<std::pair<double, double>> out;
+        if (file_.alone) return out;
+        const auto time = [&](std::size_t i) {
+            return clock_.seconds(part.points[i].frame - part.points.front().frame) - begin;
+        };
+        for (std::size_t i = 1; i < part.points.size(); ++i) {
+            const TrackPoint& a = part.points[i - 1];
+            const TrackPoint& b = part.points[i];
+            const bool filled =
+                grid.in_step ? steps_between(a, b, grid.step) > 1 : time(i) - time(i - 1) > longest_pause(usual_step());
+            const double length = std::hypot(b.x - a.x, b.y - a.y) * common_.unit;
+            if (!filled && !(length > part.fastest * (time(i) - time(i - 1)))) continue;
+            const double from = std::max(time(i - 1), 0.0), to = std::min(time(i), duration);
+            if (from >= to) continue;
+            if (!out.empty() && out.back().second >= from) {
+                out.back().second = to;
+            } else {
+                out.emplace_back(from, to);
+            }
+        }
+        return out;
     }
 
     /// What is done to a track, or is not.
@@ -325,6 +361,7 @@ class TrackClipMaker {
     const TrackFile& file_;
     ImportOptions options_;  ///< see rest_of
     FrameClock clock_;
+    JudgedTracks judged_;
     SourceFacts common_;                     ///< what holds for every track
     std::size_t most_made_ = kMaxSamples;    ///< samples that the file may become by resampling
     std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
@@ -346,18 +383,19 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
     TrackClipMaker maker = at_place(name, "", [&] { return TrackClipMaker(tracks, options); });
     std::vector<ImportedClip> clips;
     bool found = false;
-    for (const Track& track : tracks.tracks) {
-        if (options.id && track.id != *options.id) continue;
+    const std::vector<TrackPart>& parts = maker.judged().parts;
+    for (const TrackPart& part : parts) {
+        if (options.id && part.id != *options.id) continue;
         found = true;
-        const std::string place = at_line(track.first_line()) + (tracks.alone ? "" : ", track " + in_quotes(track.id));
-        std::optional<ImportedClip> clip = at_place(name, place, [&] { return maker.make(track); });
+        const std::string place = at_line(part.first_line()) + (tracks.alone ? "" : ", track " + in_quotes(part.id));
+        std::optional<ImportedClip> clip = at_place(name, place, [&] { return maker.make(part); });
         if (!clip) continue;
-        clip->name = tracks.tracks.size() > 1 ? track.id : input_stem(file);
+        clip->name = parts.size() > 1 ? part.id : input_stem(file);
         clips.push_back(std::move(*clip));
     }
     if (!found) {
         std::vector<std::string> ids;
-        for (const Track& track : tracks.tracks) ids.push_back(track.id);
+        for (const TrackPart& part : parts) ids.push_back(part.id);
         throw InputError(name, "",
                          "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
                              std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
@@ -377,6 +415,7 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
     ImportOptions clock;
     clock.dt = tracks.has_times ? options.dt : options.dt.value_or(1);
     clock.fps = tracks.fps_is_rate ? options.fps : std::nullopt;
+    clock.unit = format_double(tracks.unit);
     const bool alone = std::ranges::all_of(tracks.tracks, [](const Track& of) { return of.points.size() == 1; });
     if (tracks.timed && alone && !clock.dt) clock.dt = 1;
     const TrackClipMaker maker = at_place(file.string(), "", [&] { return TrackClipMaker(tracks, clock); });
@@ -400,10 +439,10 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
                                                                                   : "as the file or its format says"));
     if (out.seconds > 0) out.options.push_back({"trim", "", "all of it, from the file's earliest row"});
     out.options.push_back(origin_offer());
-    if (tracks.tracks.size() > 1) {
+    if (maker.judged().parts.size() > 1) {
         OptionOffer& ids =
             out.options.emplace_back(OptionOffer{"id", "", "the file has several tracks: name one", true});
-        for (const Track& track : tracks.tracks) ids.choices.push_back({track.id, track.id});
+        for (const TrackPart& part : maker.judged().parts) ids.choices.push_back({part.id, part.id});
     }
     const bool by_class = std::ranges::any_of(tracks.tracks, [](const Track& of) { return !of.label.empty(); });
     const bool has_usual = !tracks.has_radius && !tracks.alone;
@@ -426,6 +465,14 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
     out.options.push_back(motion_option_offer(usual_motion(tracks), tracks.alone
                                                                         ? "as usual of tables without ids"
                                                                         : "as usual of tracks: points are far apart"));
+    if (std::ranges::find(maker.judged().findings, "keep_jumps", &ImportWarning::option) !=
+        maker.judged().findings.end()) {
+        out.options.push_back({"keep_jumps",
+                               "no",
+                               "tracks are split where they jump or pause",
+                               false,
+                               {{"no", "tracks are split there"}, {"yes", "tracks stay whole"}}});
+    }
     return out;
 }
 

@@ -30,19 +30,24 @@ struct StepCount {
     std::size_t count = 0;
 };
 
-/// All steps, the shortest first. Nearly always many in a row are equal.
-std::vector<StepCount> step_counts(std::span<const Track> tracks) {
-    std::vector<StepCount> out;
-    for (const Track& track : tracks) {
-        for (std::size_t i = 1; i < track.points.size(); ++i) {
-            const double step = track.points[i].frame - track.points[i - 1].frame;
-            if (out.empty() || out.back().step != step) out.push_back({step, 0});
-            ++out.back().count;
+/// All steps. Nearly always many in a row are equal.
+class StepCounts {
+  public:
+    void add(std::span<const TrackPoint> points) {
+        if (points.empty()) return;
+        largest_ = std::max({largest_, std::abs(points.front().frame), std::abs(points.back().frame)});
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const double step = points[i].frame - points[i - 1].frame;
+            if (counts_.empty() || counts_.back().step != step) counts_.push_back({step, 0});
+            ++counts_.back().count;
         }
     }
-    std::ranges::sort(out, {}, &StepCount::step);
-    return out;
-}
+    std::optional<double> most_frequent(double rounding);
+
+  private:
+    std::vector<StepCount> counts_;
+    double largest_ = 0;  ///< of all times
+};
 
 /// With so many significant digits.
 double rounded_to(double value, int digits) { return *parse_double(formatted("%.*g", digits, value)); }
@@ -101,8 +106,9 @@ std::optional<double> steps_in(std::span<const TrackPoint> points, double step, 
 
 }  // namespace
 
-std::optional<double> most_frequent_step(std::span<const Track> tracks, double rounding) {
-    const std::vector<StepCount> counts = step_counts(tracks);
+std::optional<double> StepCounts::most_frequent(double rounding) {
+    std::ranges::sort(counts_, {}, &StepCount::step);
+    const std::vector<StepCount>& counts = counts_;
     std::span<const StepCount> best;
     std::size_t most = 0;
     std::size_t within = 0;  // counts [begin, end)
@@ -118,22 +124,29 @@ std::optional<double> most_frequent_step(std::span<const Track> tracks, double r
         within -= counts[begin].count;
     }
     if (best.empty()) return std::nullopt;
-    double largest = 0;
-    for (const Track& track : tracks)
-        largest = std::max({largest, std::abs(track.points.front().frame), std::abs(track.points.back().frame)});
-    return common_step(best, largest);
+    return common_step(best, largest_);
 }
 
-TrackGrid grid_of_all(const Track& track, double usual, double rounding) {
-    const std::span<const TrackPoint> points = track.points;
+std::optional<double> most_frequent_step(std::span<const Track> tracks, double rounding) {
+    StepCounts counts;
+    for (const Track& track : tracks) counts.add(track.points);
+    return counts.most_frequent(rounding);
+}
+
+std::optional<double> most_frequent_step(std::span<const TrackPoint> points, double rounding) {
+    StepCounts counts;
+    counts.add(points);
+    return counts.most_frequent(rounding);
+}
+
+TrackGrid grid_of_all(std::span<const TrackPoint> points, double usual, double rounding) {
     if (points.size() == 1) return {0, usual};
     const auto rows = static_cast<double>(points.size() - 1);
     const double step = (points.back().frame - points.front().frame) / rows;
     return {rows, step, steps_in(points, step, rounding) == rows};
 }
 
-TrackGrid grid_of(const Track& track, double usual, double rounding) {
-    const std::span<const TrackPoint> points = track.points;
+TrackGrid grid_of(std::span<const TrackPoint> points, double usual, double rounding) {
     if (points.size() == 1) return {0, usual};
     const double span = points.back().frame - points.front().frame;
     const auto rows = static_cast<double>(points.size() - 1);
@@ -143,7 +156,7 @@ TrackGrid grid_of(const Track& track, double usual, double rounding) {
         return TrackGrid{steps, step, true, steps > rows};
     };
     if (steps_in(points, span / rows, rounding) == rows) return grid(rows);
-    for (const double step : {usual, *most_frequent_step({&track, 1}, rounding)}) {
+    for (const double step : {usual, *most_frequent_step(points, rounding)}) {
         if (const auto steps = steps_in(points, step, rounding)) return grid(*steps);
     }
     return {.in_step = false};

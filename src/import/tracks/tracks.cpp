@@ -23,14 +23,25 @@ std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }
 
-std::vector<Track> TrackCollector::take_sorted(
-    const std::function<std::string(const Track&, const TrackPoint&)>& twice) {
+std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice,
+                                               bool once) {
     for (Track& track : tracks_) {
         // Most are in order, which is found out sooner than they are sorted.
         if (!std::ranges::is_sorted(track.points, {}, &TrackPoint::frame))
             std::ranges::stable_sort(track.points, {}, &TrackPoint::frame);
-        const auto at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
+        auto at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
         if (at == track.points.end()) continue;
+        const auto same = [](const TrackPoint& a, const TrackPoint& b) {
+            return a.frame == b.frame && a.x == b.x && a.y == b.y && a.r == b.r;
+        };
+        if (once) {
+            if (repeated_ == 0) first_repeated_ = (at + 1)->line;
+            const auto left = std::ranges::unique(track.points, same);
+            repeated_ += left.size();
+            track.points.erase(left.begin(), left.end());
+            at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
+            if (at == track.points.end()) continue;
+        }
         throw InputError(file_, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
     }
     return take();

@@ -72,6 +72,7 @@ struct TrackFile {
     Spent spent{};                          ///< of the budget
 
     // Of tables:
+    std::string time_column{};          ///< its name, where it is one
     int header_line = 0;                ///< from 1; 0: there is no header
     std::vector<std::string> others{};  ///< names of columns that were ignored, each once
 };
@@ -102,9 +103,12 @@ class TrackCollector {
     void add(std::string_view id, const TrackPoint& point, std::string_view label = {});
     bool empty() const { return tracks_.empty(); }
 
-    /// The tracks, each in order of its frames. Throws InputError, naming the line, if a track is at two places in one
-    /// frame; `twice` says so of the first one, up to the line of it.
-    std::vector<Track> take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice = is_twice);
+    /// The tracks, each in order of its frames; `once`: without rows that say the same again. Throws InputError, naming
+    /// the line, if a track is at two places in one frame; `twice` says so of the first one, up to the line of it.
+    std::vector<Track> take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice = is_twice,
+                                   bool once = false);
+    std::size_t repeated() const { return repeated_; }      ///< rows that were left out
+    int first_repeated() const { return first_repeated_; }  ///< line
     /// As they came.
     std::vector<Track> take() { return std::move(tracks_); }
     /// What they take of the budget.
@@ -117,6 +121,8 @@ class TrackCollector {
     std::vector<Track> tracks_;
     Spent spent_;
     std::size_t used_ = 0;  ///< bytes
+    std::size_t repeated_ = 0;
+    int first_repeated_ = 0;
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last
 };
@@ -149,7 +155,8 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 /// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps), both
 /// with a warning. options.dt is the time from one frame number to the next (timed
 /// tracks: how long one of one point lasts); options.trim is of the common clock, and who is not there then is left
-/// out. Throws InputError.
+/// out. Tracks are taken apart where they cannot be one's (sanity.h), unless options.keep_jumps says no. Throws
+/// InputError.
 std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
 

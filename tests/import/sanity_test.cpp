@@ -1,0 +1,302 @@
+// What nobody does: jumps, pauses, places of who is lost, units and clocks that make no walk. Each is named and
+// counted.
+#include "imported.h"
+
+#include <import/import.h>
+#include <import/tracks/sanity.h>
+#include <import/tracks/text_rows.h>
+#include <support/folders.h>
+#include <support/input_error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+namespace {
+
+/// Where somebody is at a time in seconds.
+struct Spot {
+    double x = 0, y = 0;
+};
+using Walk = std::function<Spot(double)>;
+
+/// A row every tenth of a second from `from` to `to`.
+std::string rows_of_walk(const std::string& id, double from, double to, const Walk& walk) {
+    std::string out;
+    for (int i = 0; i <= std::lround((to - from) * 10); ++i) {
+        const double t = from + i * 0.1;
+        const Spot at = walk(t - from);
+        out += id + ',' + formatted("%.1f,%.6g,%.6g\n", t, at.x, at.y);
+    }
+    return out;
+}
+
+const std::string kSanityHead = "id,t,x,y\n";
+
+Walk along_x(double x, double y, double speed = 1) {
+    return [=](double t) { return Spot{x + speed * t, y}; };
+}
+
+std::set<std::string> ids_of(const std::vector<ImportedClip>& clips) {
+    std::set<std::string> out;
+    for (const ImportedClip& clip : clips) out.insert(clip.id);
+    return out;
+}
+
+const ImportWarning* finding(const ImportedClip& clip, const std::string& words) {
+    for (const ImportWarning& warning : clip.facts.warnings) {
+        if (warning.text.find(words) != std::string::npos) return &warning;
+    }
+    return nullptr;
+}
+
+ImportOptions keeping_jumps() {
+    ImportOptions options;
+    options.keep_jumps = true;
+    return options;
+}
+
+TEST(Sanity, APauseSplitsATrackAndAShortGapDoesNot) {
+    for (const double pause : {6.0, 60.0, 600.0}) {
+        const std::string text = kSanityHead + rows_of_walk("17", 0, 4, along_x(0, 0)) +
+                                 rows_of_walk("17", 4 + pause, 8 + pause, along_x(96, 0));
+        const auto read = csv_clips(text);
+        ASSERT_EQ(ids_of(read), (std::set<std::string>{"17", "17#2"})) << pause;
+        EXPECT_EQ(read[0].clip->count(), 41);
+        EXPECT_NEAR(read[1].start, 4 + pause, 1e-9);
+        EXPECT_TRUE(read[1].facts.invented.empty());
+        const ImportWarning* said = finding(read[0], "1 pause is longer than 5 s");
+        ASSERT_NE(said, nullptr);
+        EXPECT_EQ(said->line, 43);
+        EXPECT_NE(said->text.find("track '17', which goes on 92 m off"), std::string::npos) << said->text;
+        EXPECT_NE(said->text.find("give keep_jumps"), std::string::npos);
+        ImportOptions second;
+        second.id = "17#2";
+        EXPECT_EQ(csv_clips(text, second).at(0).start, read[1].start);
+        const auto whole = csv_clips(text, keeping_jumps());
+        ASSERT_EQ(whole.size(), 1u);
+        EXPECT_EQ(whole[0].clip->count(), 82 + std::lround(pause * 10) - 1) << "the gap is filled";
+        ASSERT_EQ(whole[0].facts.invented.size(), 1u);
+        EXPECT_NEAR(whole[0].facts.invented[0].first, 4, 1e-9);
+        EXPECT_NEAR(whole[0].facts.invented[0].second, 4 + pause, 1e-9);
+    }
+    const auto gap =
+        csv_clips(kSanityHead + rows_of_walk("a", 0, 4, along_x(0, 0)) + rows_of_walk("a", 6, 8, along_x(6, 0)));
+    ASSERT_EQ(gap.size(), 1u);
+    ASSERT_EQ(gap[0].facts.invented.size(), 1u) << "filled, and said to be";
+    // 20 steps of two seconds are longer than five seconds.
+    std::string slow = kSanityHead;
+    for (const int t : {0, 2, 4, 6, 40, 42, 44}) slow += "a," + std::to_string(t) + ',' + std::to_string(t) + ",0\n";
+    EXPECT_EQ(csv_clips(slow).size(), 1u);
+    for (const int t : {90, 92, 94}) slow += "a," + std::to_string(t) + ',' + std::to_string(t) + ",0\n";
+    EXPECT_EQ(csv_clips(slow).size(), 2u);
+}
+
+TEST(Sanity, AJumpSplitsATrackWhereItsClassCannotMakeIt) {
+    for (const double far : {3.0, 30.0, 300.0}) {
+        const std::string text =
+            kSanityHead + rows_of_walk("a", 0, 4, along_x(0, 0)) + rows_of_walk("a", 4.1, 8, along_x(4 + far, 1));
+        const auto read = csv_clips(text);
+        ASSERT_EQ(ids_of(read), (std::set<std::string>{"a", "a#2"})) << far;
+        const ImportWarning* said = finding(read[1], "1 jump is faster than its class can be");
+        ASSERT_NE(said, nullptr);
+        EXPECT_EQ(said->line, 43);
+        EXPECT_EQ(said->option, "keep_jumps");
+        const auto whole = csv_clips(text, keeping_jumps());
+        ASSERT_EQ(whole.size(), 1u);
+        ASSERT_EQ(whole[0].facts.invented.size(), 1u);
+        EXPECT_NEAR(whole[0].facts.invented[0].first, 4, 1e-9);
+    }
+    // Two who swap their ids come out as four who walk on.
+    const auto swapped =
+        csv_clips(kSanityHead + rows_of_walk("a", 0, 4, along_x(0, 0)) + rows_of_walk("b", 0, 4, along_x(0, 20)) +
+                  rows_of_walk("a", 4.1, 8, along_x(4.1, 20)) + rows_of_walk("b", 4.1, 8, along_x(4.1, 0)));
+    EXPECT_EQ(ids_of(swapped), (std::set<std::string>{"a", "a#2", "b", "b#2"}));
+    ASSERT_NE(finding(swapped[0], "2 jumps are"), nullptr);
+}
+
+TEST(Sanity, EightMetresASecondBindPeopleAlone) {
+    std::string text = "id,t,x,y,class\n";
+    const auto add = [&text](const std::string& label, double speed) {
+        const std::string rows = rows_of_walk(label, 0, 4, along_x(0, 5 * speed, speed));
+        for (std::size_t at = 0; at < rows.size();) {
+            const std::size_t end = rows.find('\n', at);
+            text += rows.substr(at, end - at) + ',' + label + '\n';
+            at = end + 1;
+        }
+    };
+    add("pedestrian", 1.4);
+    add("Car", 30);
+    add("bicycle", 9);
+    add("bus", 20);
+    const auto read = csv_clips(text);
+    EXPECT_EQ(read.size(), 4u);
+    for (const ImportedClip& clip : read) {
+        EXPECT_TRUE(clip.facts.invented.empty()) << clip.id;
+        EXPECT_EQ(finding(clip, "jump"), nullptr);
+        EXPECT_EQ(clip.facts.doubt, "");
+    }
+    add("person", 12);
+    for (const ImportedClip& clip : csv_clips(text))
+        EXPECT_EQ(clip.facts.invented.size(), clip.id == "person" ? 1u : 0u) << "all of it is too fast";
+    EXPECT_EQ(fastest_of("Pedestrian", 0), 8);
+    EXPECT_EQ(fastest_of("", 1.2), 8);
+    EXPECT_GT(fastest_of("", 20), 45);
+    EXPECT_GT(fastest_of("motorcyclist", 0), 45);
+}
+
+TEST(Sanity, WhoIsLostIsNotWhereThatIsWritten) {
+    for (const Spot lost : {Spot{-1, -1}, Spot{0, 0}, Spot{999, 999}}) {
+        std::string text = kSanityHead;
+        for (int who = 0; who < 2; ++who) {
+            text += rows_of_walk(who == 0 ? "a" : "b", 0, 4, [&](double t) {
+                return t > 1.45 + who * 0.5 && t < 2.05 + who * 0.5 ? lost : Spot{10 + t, 5 + 10.0 * who};
+            });
+        }
+        const auto read = csv_clips(text);
+        ASSERT_EQ(read.size(), 2u) << lost.x;
+        for (const ImportedClip& clip : read) {
+            EXPECT_EQ(clip.clip->count(), 41);
+            for (const mobb::Disk& disk : clip.clip->samples()) EXPECT_TRUE(disk.x >= 10 && disk.x < 14.1) << disk.x;
+            ASSERT_EQ(clip.facts.invented.size(), 1u);
+            EXPECT_NEAR(clip.facts.invented[0].second - clip.facts.invented[0].first, 0.7, 1e-9);
+        }
+        const ImportWarning* said = finding(read[0], "12 rows are left out");
+        ASSERT_NE(said, nullptr) << read[0].facts.warnings[0].text;
+        const bool is_a = said->text.find("track 'a'") != std::string::npos;
+        EXPECT_EQ(said->line, is_a ? 17 : 63) << said->text;
+        EXPECT_EQ(csv_clips(text, keeping_jumps())[0].clip->samples()[16].x, lost.x);
+    }
+    // Who begins at the origin is there.
+    const auto origin = csv_clips(kSanityHead + rows_of_walk("a", 0, 4, along_x(0, 0)));
+    EXPECT_EQ(origin[0].clip->samples()[0].x, 0);
+    EXPECT_EQ(origin[0].facts.warnings.size(), 1u) << "the radius alone";
+}
+
+TEST(Sanity, OnePointFarOffIsLeftOut) {
+    for (const double far : {5.0, 90.0, 1e6}) {
+        const auto read = csv_clips(kSanityHead + rows_of_walk("a", 0, 4, [&](double t) {
+                                        return std::abs(t - 2) < 0.01 ? Spot{far, far} : Spot{t, 0};
+                                    }));
+        ASSERT_EQ(ids_of(read), std::set<std::string>{"a"});
+        EXPECT_NEAR(read[0].clip->samples()[20].x, 2, 1e-9);
+        const ImportWarning* said = finding(read[0], "1 row is left out");
+        ASSERT_NE(said, nullptr);
+        EXPECT_EQ(said->line, 22);
+    }
+}
+
+TEST(Sanity, UnitsThatNobodyMovesInAreRefusedUntilTheyAreSaid) {
+    const auto scaled = [](double places, double times) {
+        std::string text = kSanityHead;
+        for (int i = 0; i <= 40; ++i) text += "a," + formatted("%.9g,%.9g,0\n", i * 0.1 * times, i * 0.1 * places);
+        return text;
+    };
+    const struct {
+        double places, times;
+        const char* remedy;
+    } cases[] = {{100, 1, "if places are in cm, give unit cm"},
+                 {1000, 1, "in mm, give unit 0.001"},
+                 {1, 1e3, "if times are in ms, give columns t=t/1000"},
+                 {1, 1e6, "if times are in us, give columns t=t/1000000"},
+                 {1, 1.0 / 60, "if times are in minutes, give columns t=t*60"},
+                 {1e-5, 1, "if places are degrees, project them to metres first"}};
+    for (const auto& [places, times, remedy] : cases) {
+        const std::string text = scaled(places, times);
+        const std::string refused = csv_refusal(text);
+        EXPECT_NE(refused.find(remedy), std::string::npos) << refused;
+        EXPECT_NE(refused.find("track 'a', line "), std::string::npos) << refused;
+        EXPECT_NE(refused.find("give unit m if it is right"), std::string::npos) << refused;
+        ImportOptions insists;
+        insists.unit = "m";
+        const auto read = csv_clips(text, insists);
+        EXPECT_EQ(read.size(), 1u) << "it is as it is";
+        EXPECT_NE(read[0].facts.doubt, "");
+        EXPECT_NE(finding(read[0], remedy), nullptr) << "but said";
+    }
+    ImportOptions cm;
+    cm.unit = "cm";
+    EXPECT_EQ(csv_clips(scaled(100, 1), cm)[0].facts.doubt, "");
+    ImportOptions ms;
+    ms.columns = "t=t/1000";
+    EXPECT_EQ(csv_clips(scaled(1, 1e3), ms)[0].facts.doubt, "");
+    // Slow or fast, but not beyond belief.
+    for (const double factor : {0.05, 20.0}) {
+        const auto read = csv_clips(scaled(factor, 1));
+        EXPECT_NE(finding(read[0], "the median speed of who moves"), nullptr) << factor;
+        EXPECT_NE(read[0].facts.doubt, "");
+    }
+    // Frames by a rate that is not theirs.
+    std::string rows;
+    for (int i = 0; i < 20; ++i) rows += formatted("1 %d %d 0\n", i, i);
+    EXPECT_NE(input_error([&] {
+                  track_clips(parse_text_tracks("# framerate: 1000\n# id frame x y\n" + rows, "f.txt"), "f.txt", {});
+              }).find("1000 m/s"),
+              std::string::npos);
+}
+
+TEST(Sanity, RealPeopleWhoWereRecordedDoNotJump) {
+    const auto folder = kSharedData / "trajectories";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        for (const ImportedClip& clip : import_clips(entry.path(), {})) {
+            EXPECT_EQ(finding(clip, "jump"), nullptr) << entry.path() << said(*finding(clip, "jump"));
+            EXPECT_EQ(finding(clip, "pause"), nullptr) << entry.path();
+            EXPECT_EQ(finding(clip, "left out, as"), nullptr) << entry.path();
+            // What is too fast for people is marked at least: of a drone's pixels all is.
+            const auto samples = clip.clip->samples();
+            for (std::size_t i = 1; i < samples.size(); ++i) {
+                const double speed =
+                    std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y) / clip.clip->dt();
+                if (speed <= 8.01 || fastest_of(clip.facts.label, 0) > 8) continue;
+                const double middle = (static_cast<double>(i) - 0.5) * clip.clip->dt();
+                EXPECT_TRUE(std::ranges::any_of(
+                    clip.facts.invented, [&](const auto& of) { return of.first <= middle && middle <= of.second; }))
+                    << entry.path() << clip.id << ' ' << i;
+            }
+        }
+    }
+}
+
+TEST(Sanity, PublicReportsAreSplitOrNamed) {
+    const auto folder = kSharedData / "public2";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
+    const auto ids = [&](const char* name) { return ids_of(import_clips(folder / name, {})); };
+    using Ids = std::set<std::string>;
+    EXPECT_EQ(ids("id_used_again_after_10s.csv"), (Ids{"1", "1#2", "2"}));
+    EXPECT_EQ(ids("id_used_again_after_3600s.csv"), (Ids{"1", "1#2", "2"}));
+    EXPECT_EQ(ids("ngsim_id_used_again.csv"), (Ids{"2", "2#2", "3"}));
+    EXPECT_EQ(ids("gap_stop_long.csv"), (Ids{"1", "1#2"}));
+    EXPECT_EQ(ids("one_point_far_off.csv"), (Ids{"1", "2"}));
+    const auto lost = import_clips(folder / "lost_as_minus_one.csv", {});
+    EXPECT_EQ(ids_of(lost), (Ids{"1", "2"}));
+    for (const ImportedClip& clip : lost) {
+        for (const mobb::Disk& disk : clip.clip->samples()) EXPECT_GE(disk.x, 9.9);
+        EXPECT_NE(finding(clip, "rows are left out, as nobody is there"), nullptr);
+    }
+    for (const auto& [name, remedy] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"places_mm.csv", "in mm, give unit 0.001"},
+             {"time_us_from_zero.csv", "times are in us, give columns t=time/1000000"},
+             {"time_minutes.csv", "times are in minutes, give columns t=time*60"},
+             {"degrees_called_xy.csv", "places are degrees"}}) {
+        const char* const file = name;
+        const std::string said = input_error([&] { import_clips(folder / file, {}); });
+        EXPECT_NE(said.find(remedy), std::string::npos) << name << ' ' << said;
+    }
+    EXPECT_NE(finding(import_clips(folder / "frame_called_time_every_10.csv", {})[0],
+                      "times count frames, give columns frame=time and fps"),
+              nullptr);
+    EXPECT_EQ(ids("empty_cells.csv"), (Ids{"1", "2"}));
+    EXPECT_EQ(ids("active_column.csv").size(), 2u);
+}
+
+}  // namespace
+}  // namespace mobbscope
