@@ -178,9 +178,9 @@ struct Findings {
     /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
     std::optional<double> t0() const {
         const SceneClip& clip = scene.clips.front();
-        if (is_scene_file(scene.file) || !clip.facts.t0) return std::nullopt;
+        if (is_scene_file(scene.file)) return std::nullopt;
         // Of takes each has its own.
-        return *clip.facts.t0 - (clip.options.id ? 0 : clip.start);
+        return clip.facts.first_key ? std::optional(*clip.facts.first_key - clip.start) : clip.facts.t0;
     }
     int a_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
     int b_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }

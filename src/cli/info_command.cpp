@@ -45,8 +45,8 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.members("animation", if_any(facts.animation), "root", if_any(facts.root), "root_why", if_any(facts.root_why));
     out.members("up", if_any(facts.up), "up_why", if_any(facts.up_why));
     out.member("joints", facts.joints > 0 ? std::optional(facts.joints) : std::nullopt);
-    out.members("class", if_any(facts.label), "t0", facts.t0);
-    out.member("start", facts.t0 ? std::optional(clip.start) : std::nullopt);
+    out.members("class", if_any(facts.label), "t0", facts.t0 ? facts.t0 : facts.first_key);
+    out.member("start", facts.t0 || facts.first_key ? std::optional(clip.start) : std::nullopt);
     out.members("unit", facts.unit, "guessed_from_height", facts.guessed_from_height);
     out.members("file_frames", facts.frames, "file_dt", facts.dt, "file_duration", facts.duration);
     out.members("samples", clip.clip->count(), "dt", clip.clip->dt(), "duration", clip.clip->duration());
@@ -101,12 +101,12 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& commo
                   << (clip.options.animation ? ", animation " + in_quotes(facts.animation) : "") << '\n';
     }
     if (!facts.label.empty()) std::cout << "  class        " << in_quotes(facts.label) << '\n';
-    if (!clip.options.id && facts.t0.value_or(0) != 0) {
-        std::cout << "  begins       at " << format_double(*facts.t0) << " s in the file, its first key\n";
-    } else if (clip.options.id && facts.t0) {
+    if (facts.t0) {
         std::cout << "  there        from " << brief(clip.start) << " to " << brief(clip.start + clip.clip->duration())
                   << " s; 0 is " << format_double(*facts.t0) << " s in the file\n";
     }
+    if (facts.first_key.value_or(0) != 0)
+        std::cout << "  first key    at " << brief(*facts.first_key) << " s of the file, which is 0 s of the clip\n";
     std::cout << "  in the file  " << counted(facts.frames, "frame", "frames") << " over " << brief(facts.duration)
               << " s, " << (facts.dt ? brief(*facts.dt) + " s apart" : "not uniform in time") << ", "
               << brief(facts.unit) << " m per unit" << guess_of(facts) << up_of(facts) << '\n'

@@ -572,7 +572,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
         if (!imported.root.empty()) clip.options.root = imported.root;
         name_own_radius(clip);
-        if (!imported.id.empty()) {
+        if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
         }

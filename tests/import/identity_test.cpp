@@ -120,8 +120,8 @@ TEST(Identity, PublicReportsAreRead) {
     ImportOptions frames;
     frames.fps = 10;
     EXPECT_EQ(import_clips(folder / "several_recordings.csv", frames).size(), 2u);
-    EXPECT_EQ(import_clips(folder / "gltf_starts_at_100.gltf", {})[0].facts.t0, 100);
-    EXPECT_EQ(import_clips(folder / "gltf_starts_at_0.5.gltf", {})[0].facts.t0, 0.5);
+    EXPECT_EQ(import_clips(folder / "gltf_starts_at_100.gltf", {})[0].facts.first_key, 100);
+    EXPECT_EQ(import_clips(folder / "gltf_starts_at_0.5.gltf", {})[0].facts.first_key, 0.5);
 }
 
 }  // namespace

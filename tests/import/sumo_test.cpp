@@ -48,6 +48,7 @@ TEST(Sumo, VehiclesAndPersonsAreReadFromXml) {
               "out; 1 row without a place are left out; ");
     const TrackFile read = parse_sumo(text, "f");
     EXPECT_EQ(read.tracks[0].label, "car");
+    EXPECT_EQ(read.tracks[1].label, "person");
     EXPECT_EQ(read.tracks[0].points[1].line, 11);
 }
 
@@ -56,10 +57,10 @@ TEST(Sumo, TablesHaveColumnsForEachKind) {
         std::string text =
             "timestep_time;person_id;person_x;person_y;person_vehicle;vehicle_id;vehicle_x;vehicle_y;vehicle_type\n"
             "0.00;;;;;;;;\n"
-            "0.10;p;1;2;;;;;\n"
-            "0.10;;;;;v;5;6;car\n"
-            "0.20;p;2;2;v;v;6;6;car\r\n"
-            "0.30;p;3;2;;;;;\n";
+            "1.00;p;1;2;;;;;\n"
+            "1.00;;;;;v;5;6;car\n"
+            "2.00;p;2;2;v;v;6;6;car\r\n"
+            "3.00;p;3;2;;;;;\n";
         std::ranges::replace(text, ';', separator);
         EXPECT_EQ(walks(text),
                   "p @0: (1,2) (3,2); v @0: (5,6) (6,6); 1 row of somebody who rides in a vehicle are left out; ");

@@ -259,7 +259,7 @@ void time_bar(Ui& ui, Imports& imports, const SceneClip& clip, double seconds) {
     const auto trim = clip.options.trim;
     const double begin = trim ? trim->first : 0;
     const double end = trim ? std::min(trim->second, seconds) : seconds;
-    const double offset = clip.options.id ? clip.start : begin;
+    const double offset = clip.facts.t0 ? clip.start : begin;
     const float handle = ui.px(12);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;

@@ -85,9 +85,12 @@ struct SourceFacts {
     std::string up{};                             ///< the axis of the file that points up: "y", "z", "-y", ...
     std::string up_why{};                         ///< why it is, where no option names it: "as the file says"
 
-    std::string label{};  ///< of a track: its class, "Biker"; empty where the file has none
-    /// Seconds on the file's own clock: of tracks its earliest point, which is time 0 of the clock of all of them; of
-    /// an animation its earliest key, which is time 0 of its clip. None: neither.
+    std::optional<double> first_key{};  ///< seconds in the file: when the animation's earliest key is
+
+    // Of tracks:
+    std::string label{};  ///< its class, "Biker"; empty where the file has none
+    /// Seconds on the file's own clock: its earliest point, which is time 0 of the clock of all its tracks. None: the
+    /// clip is no track.
     std::optional<double> t0{};
     /// Seconds of the clip, in order: where nobody was seen to move like that, as a gap was filled or it is too fast.
     std::vector<std::pair<double, double>> invented{};

@@ -157,7 +157,7 @@ class MotionImport {
         facts.frames = times.frames;
         facts.dt = times.dt;
         facts.duration = times.last - times.first;
-        facts.t0 = times.first;
+        facts.first_key = times.first;
         facts.root = name_of(root);
         facts.joints = joints_below(root);
         facts.rig = rig_of(motion_.joints()[static_cast<std::size_t>(root)].name);
@@ -448,7 +448,7 @@ std::vector<ImportedClip> motion_clips(const MotionFile& motions, const std::fil
         clip.root = clip.facts.root;
         clip.name += " · " + clip.root;
     }
-    const auto begin_of = [](const ImportedClip& clip) { return *clip.facts.t0; };
+    const auto begin_of = [](const ImportedClip& clip) { return *clip.facts.first_key; };
     const double earliest = begin_of(*std::ranges::min_element(clips, {}, begin_of));
     for (ImportedClip& clip : clips) clip.start = begin_of(clip) - earliest;
     return clips;

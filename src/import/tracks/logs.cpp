@@ -205,7 +205,10 @@ class LogParser {
             lines_.fail(
                 "lacks one of SIMSEC, NO and coordinates; let VISSIM write them: CoordFront of vehicles, CoordCentX "
                 "and CoordCentY of pedestrians");
-        if (header.starts_with('$')) format_ = "vissim";
+        if (header.starts_with('$')) {
+            format_ = "vissim";
+            label_ = header.starts_with("$PEDESTRIAN") ? "pedestrian" : "vehicle";
+        }
     }
 
     std::vector<std::string_view> row() const {
@@ -263,7 +266,7 @@ class LogParser {
         const TrackPoint point{time_of(fields), number(x, at_x, mobb::kMaxLength),
                                number(y, columns_.both ? at_x : *columns_.y, mobb::kMaxLength), lines_.number()};
         in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(point.frame);
-        tracks_.add(id, point);
+        tracks_.add(id, point, label_);
     }
 
     /// The ground is right and forward of the camera; where it only goes up and down, those axes were meant otherwise.
@@ -286,7 +289,7 @@ class LogParser {
         };
         const std::size_t up = extent(2) == 0 && extent(1) > 0 ? 2 : 1;
         for (std::size_t i = 0; i < places.size(); ++i)
-            tracks_.add(kRobot, {static_cast<double>(i), places[i][0], places[i][up == 2 ? 1 : 2], at[i]});
+            tracks_.add(kRobot, {static_cast<double>(i), places[i][0], places[i][up == 2 ? 1 : 2], at[i]}, label_);
         TrackFile out = finished();
         out.rate = kKittiRate;
         out.rate_assumption =
@@ -317,6 +320,7 @@ class LogParser {
     char separator_ = ' ';
     std::size_t count_ = 0;  ///< fields of a row
     std::string format_ = "poses";
+    std::string_view label_ = kRobot;
     bool in_milliseconds_ = true;  ///< all times
     int without_place_ = 0;        ///< rows
 };

@@ -35,7 +35,8 @@ class SumoTracks {
         const std::string name =
             at->second == kind ? std::string(id) : std::string(kKinds[kind]) + ' ' + std::string(id);
         in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(point.frame);
-        tracks_.add(name, point, type);
+        // The usual types say less than the kind.
+        tracks_.add(name, point, type.empty() || type.starts_with("DEFAULT_") ? kKinds[kind] : type);
     }
 
     TrackFile finish() {
