@@ -172,8 +172,16 @@ TEST(Sanity, WhoIsLostIsNotWhereThatIsWritten) {
         ASSERT_NE(said, nullptr) << read[0].facts.warnings[0].text;
         const bool is_a = said->text.find("track 'a'") != std::string::npos;
         EXPECT_EQ(said->line, is_a ? 17 : 63) << said->text;
+        EXPECT_EQ(finding(read[0], "jump is"), nullptr) << "nothing is split";
         EXPECT_EQ(csv_clips(text, keeping_jumps())[0].clip->samples()[16].x, lost.x);
+        EXPECT_NE(finding(csv_clips(text, keeping_jumps())[0], "4 jumps are faster"), nullptr);
     }
+    // Who is never seen is nobody, if others are lost there too.
+    std::string never = kSanityHead + rows_of_walk("a", 0, 4, [](double t) {
+                            return t > 1.45 && t < 2.05 ? Spot{-1, -1} : Spot{10 + t, 5};
+                        });
+    never += rows_of_walk("b", 0, 4, [](double) { return Spot{-1, -1}; });
+    EXPECT_EQ(ids_of(csv_clips(never)), std::set<std::string>{"a"});
     // Who begins at the origin is there.
     const auto origin = csv_clips(kSanityHead + rows_of_walk("a", 0, 4, along_x(0, 0)));
     EXPECT_EQ(origin[0].clip->samples()[0].x, 0);
@@ -296,6 +304,8 @@ TEST(Sanity, PublicReportsAreSplitOrNamed) {
               nullptr);
     EXPECT_EQ(ids("empty_cells.csv"), (Ids{"1", "2"}));
     EXPECT_EQ(ids("active_column.csv").size(), 2u);
+    EXPECT_EQ(import_clips(folder / "ngsim_overlap.csv", {})[0].facts.doubt, "") << "Vehicle_ID names cars";
+    EXPECT_FALSE(ids("trajnet_nan.txt").empty());
 }
 
 }  // namespace

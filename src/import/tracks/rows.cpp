@@ -113,8 +113,8 @@ void RowReader::check_order(const Cells& cells, double time) const {
                    (time == last_ && !has(Column::frame) ? rounded_time_hint(time) : "") + order_hint);
 }
 
-void RowReader::add(const Cells& cells) {
-    if (is_left_out(cells)) return;
+bool RowReader::add(const Cells& cells) {
+    if (is_left_out(cells)) return false;
     const std::string_view id = identifier(cells);
     const double time = when(cells);
     const TrackPoint point{time, value(cells, Column::x, mobb::kMaxLength), value(cells, Column::y, mobb::kMaxLength),
@@ -124,6 +124,7 @@ void RowReader::add(const Cells& cells) {
     if (!has(Column::id) && has_times() && !tracks_.empty()) check_order(cells, time);
     last_ = time;
     tracks_.add(id, point, label(cells));
+    return true;
 }
 
 TrackFile RowReader::finish() {

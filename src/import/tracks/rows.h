@@ -48,8 +48,8 @@ class RowReader {
         return formulas_[static_cast<std::size_t>(column)];
     }
 
-    /// Throws InputError naming the row and the column.
-    void add(const Cells& cells);
+    /// False of a row that does not count. Throws InputError naming the row and the column.
+    bool add(const Cells& cells);
     bool empty() const { return tracks_.empty(); }
     /// "the frame" or "the time".
     std::string time_word() const { return has(Column::frame) ? "the frame" : "the time"; }

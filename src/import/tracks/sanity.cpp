@@ -62,6 +62,14 @@ constexpr Mover kMovers[] = {
     {"trailer", kFastestOfAll},
 };
 
+/// Null for a class that none fits.
+const Mover* mover_of(std::string_view label) {
+    const std::string small = lower(label);
+    const auto* const at =
+        std::ranges::find_if(kMovers, [&](const Mover& mover) { return small.find(mover.word) != std::string::npos; });
+    return at == std::end(kMovers) ? nullptr : at;
+}
+
 struct Velocity {
     double x = 0, y = 0;
     double speed() const { return std::hypot(x, y); }
@@ -82,7 +90,7 @@ struct Worst {
 
     void take(double how_bad, const Track& of, const TrackPoint& a, const TrackPoint& b) {
         ++count;
-        if (how_bad > by) *this = {count, how_bad, &of, a, b};
+        if (!track || how_bad > by) *this = {count, how_bad, &of, a, b};
     }
 };
 
@@ -131,6 +139,13 @@ class Judge {
     /// Without a unit of metres nothing is too fast.
     bool has_metres() const { return !file_.in_pixels || scale_.is_said; }
 
+    /// Its class; else what ids are called ("Vehicle_ID"), where that is one.
+    std::string_view label(const Track& track) const {
+        return !track.label.empty()        ? std::string_view(track.label)
+               : mover_of(file_.id_column) ? file_.id_column
+                                           : std::string_view();
+    }
+
     // ---- speeds of all
 
     /// The median of the steps in which somebody moves, and one as fast.
@@ -167,7 +182,7 @@ class Judge {
         if (!has_metres()) return;
         double fastest = 0;
         for (const Track& track : file_.tracks)
-            fastest = std::max(fastest, std::min(fastest_of(track.label, kOfPeople), kFastestMedian));
+            fastest = std::max(fastest, std::min(fastest_of(label(track), kOfPeople), kFastestMedian));
         const bool is_fast = median_ > fastest, is_slow = median_ < kSlowMedian;
         const bool is_absurd = median_ > kFastestMedian || median_ < kSlowestMedian;
         const bool is_proven = median->of >= kFewestSpeeds && !file_.alone;
@@ -182,7 +197,7 @@ class Judge {
         if (is_absurd && is_proven && !scale_.is_said)
             throw std::invalid_argument(said + "; give unit m if it is right");
         out_.doubt = said;
-        out_.findings.push_back({said, "unit", median->line});
+        out_.findings.push_back({said, "unit"});
     }
 
     /// The units that would make it a walk.
@@ -236,7 +251,7 @@ class Judge {
     double fastest(const Track& track) {
         if (file_.alone) return kNoLimit;
         double median = 0;
-        if (track.label.empty()) {
+        if (label(track).empty()) {
             speeds_.clear();
             for (std::size_t i = 1; i < track.points.size(); ++i) {
                 const double here = speed(track.points[i - 1], track.points[i]);
@@ -246,7 +261,7 @@ class Judge {
             std::ranges::nth_element(speeds_, middle);
             median = speeds_.size() < kFewestSpeeds ? median_ : *middle;
         }
-        const double fastest = fastest_of(track.label, median);
+        const double fastest = fastest_of(label(track), median);
         return scale_.is_said && median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
     }
 
@@ -317,11 +332,15 @@ class Judge {
         const auto add = [&](std::span<const TrackPoint> part, std::size_t number) {
             out_.parts.push_back({&track, number == 1 ? track.id : part_id(track.id, number), part, limit});
         };
-        for (std::size_t i = 1; i < runs.size(); ++i) {
-            const TrackPoint& a = points[runs[i].first - 1];
-            const TrackPoint& b = points[runs[i].first];
-            if (runs[i].after_jump) jumps_.take(speed(a, b) / limit, track, a, b);
-            if (!runs[i].after_jump) pauses_.take(seconds(a, b) / longest_pause_, track, a, b);
+        const auto count_break = [&](const TrackPoint& a, const TrackPoint& b) {
+            if (is_pause(a, b)) {
+                pauses_.take(seconds(a, b) / longest_pause_, track, a, b);
+            } else {
+                jumps_.take(speed(a, b) / limit, track, a, b);
+            }
+        };
+        if (scale_.keeps_jumps) {
+            for (std::size_t i = 1; i < runs.size(); ++i) count_break(points[runs[i].first - 1], points[runs[i].first]);
         }
         if (scale_.keeps_jumps || (runs.size() == 1 && !(points.size() > 1 && is_lost(points, runs.front())))) {
             add(points, 1);
@@ -336,13 +355,14 @@ class Judge {
             if (is_off || is_lost(points, run)) {
                 left_out_ += run.last - run.first;
                 const std::size_t from = run.first > 0 ? run.first - 1 : std::min(run.last, points.size() - 1);
-                off_.take(metres(points[from], points[run.first]), track, points[from], points[run.first]);
+                off_.take(speed(points[from], points[run.first]) / limit, track, points[from], points[run.first]);
             } else {
                 kept.push_back(run);
             }
         }
         std::size_t number = 0;
         for (std::size_t i = 0; i < kept.size();) {
+            if (i > 0) count_break(points[kept[i - 1].last - 1], points[kept[i].first]);
             std::size_t end = i + 1;
             // What lies on both sides of rows that are left out is one where it can be.
             while (end < kept.size() && kept[end].first > kept[end - 1].last &&
@@ -391,15 +411,17 @@ class Judge {
                   "keep_jumps", jumps_.to.line}});
         }
         if (off_.count > 0) {
-            found.push_back({jumps_.by,
-                             {counted(left_out_, "row is", "rows are") +
-                                  " left out, as nobody is there: who is lost is "
-                                  "written so, or a point is off, the farthest " +
-                                  brief(off_.by) + " m, " + track(off_) + " at " + place_words(off_.to) + remedy,
-                              "keep_jumps", off_.to.line}});
+            found.push_back(
+                {off_.by,
+                 {counted(left_out_, "row is", "rows are") +
+                      " left out, as nobody is there: who is lost is "
+                      "written so, or a point is off, the farthest " +
+                      brief(metres(off_.from, off_.to)) + " m, " + track(off_) + " at " + place_words(off_.to) + remedy,
+                  "keep_jumps", off_.to.line}});
         }
         if (pauses_.count > 0) {
-            const bool far = speed(pauses_.from, pauses_.to) > kSlowMedian;
+            constexpr double kElsewhere = 1;  // metres
+            const bool far = metres(pauses_.from, pauses_.to) > kElsewhere;
             found.push_back(
                 {pauses_.by,
                  {counted(pauses_.count, "pause is", "pauses are") + " longer than " + brief(longest_pause_) +
@@ -430,10 +452,7 @@ class Judge {
 }  // namespace
 
 double fastest_of(std::string_view label, double median) {
-    const std::string small = lower(label);
-    for (const Mover& mover : kMovers) {
-        if (small.find(mover.word) != std::string::npos) return mover.fastest;
-    }
+    if (const Mover* mover = mover_of(label)) return mover->fastest;
     return median > kOfPeople ? kFastestOfAll : kFastestPerson;
 }
 

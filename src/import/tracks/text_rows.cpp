@@ -147,6 +147,7 @@ class TextRows final : public Cells {
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         TrackFile out = finished();
         out.format = "csv";
+        if (const std::optional<ColumnFormula>& id = rows_[Column::id]) out.id_column = names_[*id->only_column()];
         if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
             out.time_column = names_[time.front()];
         out.header_line = header_line_;
@@ -167,7 +168,7 @@ class TextRows final : public Cells {
                 continue;
             }
             if (std::exchange(first, false)) choose_format();
-            add_row();
+            if (!add_row()) continue;
             if (format_ == &kTrajnet) look_at_order();
             if (heads_) heights_.push_back(number(*heads_));
         }
@@ -301,7 +302,7 @@ class TextRows final : public Cells {
                  "; give every row all of them");
     }
 
-    void add_row() {
+    bool add_row() {
         split_row();
         if (std::exchange(counts_time_, false)) scale_time();
         if (has_scopes() && !scoped_ && !needs_scopes_) {
@@ -309,7 +310,7 @@ class TextRows final : public Cells {
             if (rows_.empty()) first_scope_ = scope;
             needs_scopes_ = !is_weak_scope_ && scope != first_scope_;
         }
-        rows_.add(*this);
+        return rows_.add(*this);
     }
 
     /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.

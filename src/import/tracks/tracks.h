@@ -72,6 +72,7 @@ struct TrackFile {
     Spent spent{};                          ///< of the budget
 
     // Of tables:
+    std::string id_column{};            ///< its name, "Vehicle_ID"
     std::string time_column{};          ///< its name, where it is one
     int header_line = 0;                ///< from 1; 0: there is no header
     std::vector<std::string> others{};  ///< names of columns that were ignored, each once
