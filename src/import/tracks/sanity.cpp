@@ -262,7 +262,8 @@ class Judge {
             median = speeds_.size() < kFewestSpeeds ? median_ : *middle;
         }
         const double fastest = fastest_of(label(track), median);
-        return scale_.is_said && median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
+        // Where the unit of all is in doubt, jumps are what stands out.
+        return median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
     }
 
     /// Whether nobody of the class gets from point `at` - 1 to `at`, unless it goes on like that, or came like that.
