@@ -91,7 +91,7 @@ void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::fil
     if (std::ranges::none_of(scene.clips, is_alone)) return;
     std::vector<ImportedClip> read;
     try {
-        read = track_clips(parse_csv(text, out.string()), out, {});
+        read = track_clips(parse_csv(text, out.string()), out, {.unit = "m", .keep_jumps = true});
     } catch (const InputError&) {
         // No clip has two samples.
     }
@@ -112,6 +112,25 @@ void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::fil
 /// What a CSV of these clips is read as.
 mobb::Motion motion_as_csv(const Scene& scene) {
     return scene.clips.size() > 1 ? mobb::Motion::linear : mobb::Motion::held;
+}
+
+/// Tracks are judged when they are read, and these may be of anything.
+void warn_of_judged_tracks(const Scene& scene, const std::string& text, const std::filesystem::path& out) {
+    if (scene.clips.size() < 2) return;
+    const auto read_with = [&](const ImportOptions& options) -> std::optional<std::size_t> {
+        try {
+            return track_clips(parse_csv(text, out.string()), out, options).size();
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    };
+    const std::optional<std::size_t> read = read_with({}), insisted = read ? read : read_with({.unit = "m"});
+    if (!insisted) return;  // It needs a dt, which is told.
+    std::string give = read ? "" : " --unit m";
+    if (*insisted != scene.clips.size()) give += " --keep-jumps";
+    if (!give.empty())
+        warn(out.string() + ": nobody moves as its tracks do; give" + give + " when reading it, else it is " +
+             (read ? "split where they jump" : "refused"));
 }
 
 /// A CSV does not hold how its clips move between samples.
@@ -190,6 +209,7 @@ void run_convert(const ConvertCommandArguments& arguments) {
     const std::string text = to_csv(scene);
     write_file(arguments.out, text);
     warn_of_lost_dt(scene, text, arguments.out);
+    warn_of_judged_tracks(scene, text, arguments.out);
     warn_of_lost_motion(scene, arguments.out);
     warn_of_lost_placements(scene, arguments.out);
 }

@@ -100,7 +100,6 @@ void PeopleConflicts::sweep() {
     sweep_paths(crowd_, person_of_, within, search_.region, on_near, search_.progress);
     std::ranges::sort(near_people);
     tested_ += static_cast<std::size_t>(std::unique(near_people.begin(), near_people.end()) - near_people.begin());
-    std::ranges::sort(met_, {}, [this](const Meeting& met) { return std::tuple(people_of(met), met.a, met.b); });
 }
 
 void PeopleConflicts::take_all_pairs() {
@@ -129,6 +128,7 @@ void PeopleConflicts::rank() {
             {deepest.least_clearance, seconds_of(intervals), interval_at(intervals, deepest.time).t0, first, end});
         spend();
     };
+    std::ranges::sort(met_, {}, [this](const Meeting& met) { return std::tuple(people_of(met), met.a, met.b); });
     for (std::size_t first = 0, end = 0; first < met_.size(); first = end) {
         while (end < met_.size() && people_of(met_[end]) == people_of(met_[first])) ++end;
         if (end == first + 1) {

@@ -57,7 +57,7 @@ MOTION
 }
 
 /// Three people of whom nobody knows the unit nor the frame rate; the second comes a frame later.
-constexpr const char* kTracks = "0 1 0 0\n1 1 100 0\n2 1 200 0\n1 2 0 50\n2 2 100 50\n3 2 200 50\n0 3 0 90\n1 3 9 90\n";
+constexpr const char* kTracks = "0 1 0 0\n1 1 1 0\n2 1 2 0\n1 2 0 5\n2 2 1 5\n3 2 2 5\n0 3 0 9\n1 3 0.5 9\n";
 
 struct ImportWindow : FolderWindow<TempFolder> {
     ImportWindow() : FolderWindow({1280, 800}) {
@@ -287,7 +287,7 @@ TEST(ImportDialog, ACrowdsUnitAndFrameTimeChangeForAllOfItsFile) {
     w.click("import.unit");
     w.click("import.unit.cm");
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(w.clip(i).options.unit, "cm") << i;
-    EXPECT_EQ(w.clip(0).clip->samples()[2].x, 2);
+    EXPECT_EQ(w.clip(0).clip->samples()[2].x, 0.02);
     EXPECT_EQ(w.clip(0).options.id, "1") << "whose path it is stays";
     run_command(w.session, "clip.set", "dt 2");
     EXPECT_EQ(w.clip(2).clip->dt(), 2);
@@ -406,7 +406,7 @@ TEST(ImportDialog, MotionBetweenSamplesIsAFieldThatIsUndone) {
         EXPECT_EQ(w.clip(i).clip->motion(), mobb::Motion::held) << "for all of the file, " << i;
         EXPECT_EQ(w.clip(i).options.motion, mobb::Motion::held);
     }
-    EXPECT_TRUE(w.has("import.motion.warning")) << "steps of 100 m are longer than 0.2 m";
+    EXPECT_TRUE(w.has("import.motion.warning")) << "steps of 1 m are longer than 0.2 m";
     w.key("Ctrl+Z");
     EXPECT_EQ(w.clip().clip->motion(), mobb::Motion::linear);
     EXPECT_FALSE(w.has("import.motion.warning"));

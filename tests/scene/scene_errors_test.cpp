@@ -76,7 +76,7 @@ TEST(SceneErrors, ClipsAreChecked) {
     }
     EXPECT_NE(scene_refusal("{}").find("the key 'clips' is missing"), std::string::npos);
     EXPECT_NE(scene_refusal("{\"clips\": {}}").find("there is no clip"), std::string::npos);
-    EXPECT_NE(scene_refusal("[]").find("expected an object"), std::string::npos);
+    EXPECT_NE(scene_refusal("[]").find("looks like JSON, a list"), std::string::npos);
     EXPECT_NE(scene_refusal("{\"clips\": {\"\": {}}}").find("needs a name"), std::string::npos);
 }
 

@@ -16,7 +16,7 @@ double RowReader::value(const Cells& cells, Column column, double largest) const
     const double value = made->of([&cells](std::size_t at) { return cells.number(at); });
     if (std::abs(value) <= largest) return value;
     const std::vector<std::size_t> from = made->columns();
-    const std::size_t place = from.empty() ? 0 : from.front();
+    const std::size_t place = from.empty() ? Cells::kNoColumn : from.front();
     if (made->only_column())
         cells.fail(place, in_quotes(cells.text(place)) + " is beyond " + format_double(largest) + "; check the units");
     cells.fail(place, std::string(name(column)) + " becomes " + brief(value) + ", which is not a number up to " +
@@ -38,7 +38,7 @@ double RowReader::when(const Cells& cells) const {
 
 double RowReader::radius(const Cells& cells) const {
     double largest = value(cells, Column::r, mobb::kMaxLength);
-    std::size_t place = axes.empty() ? 0 : axes.front();
+    std::size_t place = axes.empty() ? Cells::kNoColumn : axes.front();
     if (has(Column::r) && !(*this)[Column::r]->columns().empty()) place = (*this)[Column::r]->columns().front();
     bool negative = largest < 0;
     for (const std::size_t axis : axes) {

@@ -25,6 +25,8 @@ class Cells {
     virtual int line() const = 0;                             ///< or row, from 1
     virtual std::string place(std::size_t column) const = 0;  ///< of the cell: "line 3, column 2 (y)"
 
+    static constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);  ///< the place is the row
+
     /// Throws InputError.
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
         throw InputError(file_, place(column), message);

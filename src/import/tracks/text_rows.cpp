@@ -223,6 +223,7 @@ class TextRows final : public Cells {
     }
     int line() const override { return lines_.number(); }
     std::string place(std::size_t column) const override {
+        if (column == kNoColumn) return at_line(lines_.number());
         const bool is_named = column < names_.size() && names_[column] != "_";
         return at_line(lines_.number()) + ", column " + std::to_string(column + 1) +
                (is_named ? " (" + shown(names_[column]) + ")" : "");
