@@ -89,9 +89,12 @@ void check_clip_names(const Scene& scene) {
 void warn_of_lost_dt(const Scene& scene, const std::string& text, const std::filesystem::path& out) {
     const auto is_alone = [](const SceneClip& clip) { return clip.clip->count() == 1; };
     if (std::ranges::none_of(scene.clips, is_alone)) return;
+    ImportOptions as_they_stand;
+    as_they_stand.unit = "m";
+    as_they_stand.keep_jumps = true;
     std::vector<ImportedClip> read;
     try {
-        read = track_clips(parse_csv(text, out.string()), out, {.unit = "m", .keep_jumps = true});
+        read = track_clips(parse_csv(text, out.string()), out, as_they_stand);
     } catch (const InputError&) {
         // No clip has two samples.
     }
@@ -124,7 +127,9 @@ void warn_of_judged_tracks(const Scene& scene, const std::string& text, const st
             return std::nullopt;
         }
     };
-    const std::optional<std::size_t> read = read_with({}), insisted = read ? read : read_with({.unit = "m"});
+    ImportOptions in_metres;
+    in_metres.unit = "m";
+    const std::optional<std::size_t> read = read_with({}), insisted = read ? read : read_with(in_metres);
     if (!insisted) return;  // It needs a dt, which is told.
     std::string give = read ? "" : " --unit m";
     if (*insisted != scene.clips.size()) give += " --keep-jumps";
