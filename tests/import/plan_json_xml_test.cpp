@@ -168,6 +168,7 @@ TEST(MapfTracker, BadPlansAreNamed) {
         {header + "n,even,1,1,1,r\n",
          ": is a plan of the MAPF tracker, without where its agents start: put its scenario beside it, as "
          "'n-even-1.scen'"},
+        {"agents,solution_cost\n1,1\n", ": line 1: the header names no column solution_plan or path; add it"},
         {header + "m,even,1,1,1\n", ": line 2: has 5 values but the header names 6; the file may be cut off"},
         {header + "m,even,1,1,1,r\nm,even,1,2,1,r\n", ": line 3: holds a second plan; leave one"},
         {header + "m,even,1,1,1,\n", ": line 2: the plan is empty; give one with a solution"},

@@ -80,7 +80,7 @@ class TrackerReader {
             return at == names.end() ? std::string() : row[static_cast<std::size_t>(at - names.begin())];
         };
         const auto plan = std::ranges::find_if(names, is_plan_column);
-        if (plan == names.end()) fail(1, "the header names no column solution_plan or path");
+        if (plan == names.end()) fail(1, "the header names no column solution_plan or path; add it");
         const std::string scenario = scenario_of(cell("map_name"), cell("scen_type"), cell("type_id"));
         std::string_view paths = row[static_cast<std::size_t>(plan - names.begin())];
         if (trimmed(paths).empty()) fail(row_line_, "the plan is empty; give one with a solution");
