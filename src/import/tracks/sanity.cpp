@@ -263,7 +263,7 @@ class Judge {
         }
         const double fastest = fastest_of(label(track), median);
         // Where the unit of all is in doubt, jumps are what stands out.
-        return median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
+        return has_metres() && median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
     }
 
     /// Whether nobody of the class gets from point `at` - 1 to `at`, unless it goes on like that, or came like that.
