@@ -331,16 +331,16 @@ class SceneReader {
     void check_turned_clips() const {
         const JsonPlace graph = root_.require("graph");
         const JsonPlace moves = graph.require("moves");
-        for (int i = 0; i < moves.size(); ++i) {
-            const GraphMove& move = scene_.graph->moves[static_cast<std::size_t>(i)];
-            const SceneClip& clip = scene_.clips[static_cast<std::size_t>(move.clip)];
-            if (!move.turned || !clip.source || (clip.turn && clip.turn->deg == move.turned->deg)) continue;
-            const auto [is, wanted] = told_apart(clip.turn ? clip.turn->deg : 0, move.turned->deg, brief);
-            const std::string now = clip.turn ? "by " + is + " degrees" : "not at all";
-            const JsonPlace place = moves[i];
-            place.require("clip").fail("the clip " + in_quotes(clip.name) + " turns " + now + ", the move by " +
-                                       wanted + " degrees; mend the clip's turn");
-        }
+        for (int i = 0; i < moves.size(); ++i)
+            check_turned_clip(scene_.graph->moves[static_cast<std::size_t>(i)], moves[i]);
+    }
+    void check_turned_clip(const GraphMove& move, const JsonPlace& place) const {
+        const SceneClip& clip = scene_.clips[static_cast<std::size_t>(move.clip)];
+        if (!move.turned || !clip.source || (clip.turn && clip.turn->deg == move.turned->deg)) return;
+        const auto [is, wanted] = told_apart(clip.turn ? clip.turn->deg : 0, move.turned->deg, brief);
+        const std::string now = clip.turn ? "by " + is + " degrees" : "not at all";
+        place.require("clip").fail("the clip " + in_quotes(clip.name) + " turns " + now + ", the move by " + wanted +
+                                   " degrees; mend the clip's turn");
     }
 
     static void refuse_import_keys(const JsonPlace& place) {

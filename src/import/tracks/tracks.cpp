@@ -36,9 +36,9 @@ std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(c
         };
         if (once) {
             if (repeated_ == 0) first_repeated_ = (at + 1)->line;
-            const auto left = std::ranges::unique(track.points, same);
-            repeated_ += left.size();
-            track.points.erase(left.begin(), left.end());
+            const auto left = std::unique(track.points.begin(), track.points.end(), same);
+            repeated_ += static_cast<std::size_t>(track.points.end() - left);
+            track.points.erase(left, track.points.end());
             at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
             if (at == track.points.end()) continue;
         }
