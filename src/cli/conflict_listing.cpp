@@ -323,9 +323,10 @@ ConflictListing merged_listing(const std::vector<std::filesystem::path>& files) 
             whole = std::move(part);
         }
     }
-    for (int part = 1; part <= whole->part->parts; ++part) {
-        if (seen.contains(part)) continue;
-        const std::string what = std::to_string(part) + "/" + std::to_string(whole->part->parts);
+    int missing = 1;
+    while (seen.contains(missing)) ++missing;
+    if (missing <= whole->part->parts) {
+        const std::string what = std::to_string(missing) + "/" + std::to_string(whole->part->parts);
         throw InputError(files.front().string(), "",
                          "part " + what + " is missing; ask for it with the options of the others and --part " + what);
     }
