@@ -250,6 +250,42 @@ TEST(Sanity, UnitsThatNobodyMovesInAreRefusedUntilTheyAreSaid) {
               std::string::npos);
 }
 
+/// Noise is no motion.
+TEST(Sanity, ACrowdThatStandsIsRead) {
+    std::string rows = "id,t,x,y\n";
+    for (int id = 0; id < 20; ++id) {
+        for (int i = 0; i < 100; ++i)
+            rows +=
+                formatted("%d,%.2f,%.4f,%.4f\n", id, 0.01 * i, 3.0 * id + 0.0003 * (i * 7 % 5), 0.0003 * (i * 3 % 7));
+    }
+    for (const ImportedClip& clip : csv_clips(rows)) EXPECT_EQ(clip.facts.doubt, "") << clip.id;
+}
+
+TEST(Sanity, AColumnOfRadiiSaysTheirUnitAlone) {
+    const auto read = csv_clips("id,t,x,y,radius_cm\n1,0,0,0,25\n1,1,1,0,25\n1,2,2,0,25\n");
+    EXPECT_EQ(read[0].clip->samples()[2].x, 2);
+    EXPECT_EQ(read[0].clip->samples()[2].r, 0.25);
+}
+
+TEST(Sanity, AClassIsAWord) {
+    EXPECT_EQ(fastest_of("businessman", 1), fastest_of("person", 1));
+    EXPECT_GT(fastest_of("bus", 1), fastest_of("person", 1));
+    EXPECT_GT(fastest_of("Cars", 1), fastest_of("person", 1));
+    EXPECT_EQ(fastest_of("bicyclist", 1), fastest_of("Biker", 1));
+}
+
+TEST(Sanity, RowsOfWhoIsNotActiveAreLeftOutInWords) {
+    const auto points = [](const char* yes, const char* no) {
+        const std::string text = formatted("id,t,x,y,active\n1,0,0,0,%s\n1,1,1,0,%s\n1,2,2,0,%s\n", yes, yes, no);
+        return csv_clips(text)[0].facts.frames;
+    };
+    EXPECT_EQ(points("yes", "no"), 2);
+    EXPECT_EQ(points("Y", "N"), 2);
+    EXPECT_EQ(points("1.0", "0.00"), 2);
+    EXPECT_NE(input_error([&] { points("yes", "perhaps"); }).find("line 4, column 5 (active): 'perhaps' is neither"),
+              std::string::npos);
+}
+
 TEST(Sanity, RealPeopleWhoWereRecordedDoNotJump) {
     const auto folder = kSharedData / "trajectories";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no test data at " << folder;

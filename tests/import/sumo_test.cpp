@@ -45,7 +45,7 @@ TEST(Sumo, VehiclesAndPersonsAreReadFromXml) {
         "</fcd-export>\n";
     EXPECT_EQ(walks(text),
               "v @0: (0,1) (1,1); p @0: (5,5); person v @0.1: (6,6); 1 row of somebody who rides in a vehicle are left "
-              "out; 1 row without a place are left out; ");
+              "out; 1 row without a place is left out; ");
     const TrackFile read = parse_sumo(text, "f");
     EXPECT_EQ(read.tracks[0].label, "car");
     EXPECT_EQ(read.tracks[1].label, "person");

@@ -309,7 +309,8 @@ class LogParser {
         });
         out.spent = tracks_.take_spent();
         if (without_place_ > 0)
-            out.warnings.push_back({counted(without_place_, "row", "rows") + " without a place are left out"});
+            out.warnings.push_back(
+                {counted(without_place_, "row without a place is", "rows without a place are") + " left out"});
         return out;
     }
 

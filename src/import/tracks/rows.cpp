@@ -5,6 +5,7 @@
 #include <mobb/clip.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -85,8 +86,13 @@ std::string_view RowReader::label(const Cells& cells) const {
 
 bool RowReader::is_left_out(const Cells& cells) {
     const auto is_set = [&](Column column) {
-        const std::string_view text = cells.text(*(*this)[column]->only_column());
-        return text != "0" && text != "0.0" && text != "false" && text != "False" && text != "FALSE" && !text.empty();
+        const std::size_t place = *(*this)[column]->only_column();
+        const std::string text = lower(cells.text(place));
+        const auto is = [&text](std::string_view word) { return text == word; };
+        if (const std::optional<double> number = parse_double(text)) return *number != 0;
+        if (std::ranges::any_of(std::array{"", "false", "no", "n", "f", "off"}, is)) return false;
+        if (std::ranges::any_of(std::array{"true", "yes", "y", "t", "on"}, is)) return true;
+        cells.fail(place, in_quotes(text) + " is neither yes nor no; write 1 or 0");
     };
     if ((has(Column::lost) && is_set(Column::lost)) || (has(Column::active) && !is_set(Column::active))) {
         ++lost_;

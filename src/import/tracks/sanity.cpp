@@ -27,13 +27,16 @@ constexpr double kOfPeople = 4;          // median of who has no class: over it 
 constexpr double kLeastJump = 0.5;       // metres: less is noise
 constexpr double kLongestPause = 5;      // seconds
 constexpr double kMostStepsOfPause = 20;
-constexpr std::size_t kMostSpeeds = 1 << 16;  // that a median is taken of
+constexpr std::size_t kMostSpeeds = 1 << 16;  // points that a median is taken of, about
 constexpr std::size_t kFewestSpeeds = 10;     // that prove anything
+constexpr std::size_t kStepsTogether = 10;    // of which a speed is taken: noise goes nowhere
+constexpr double kLeastHeadway = 0.3;         // of who moves: the way that is left of the path
 
 /// By a part of the class's name in small letters; the first that fits.
 struct Mover {
     std::string_view word;
-    double fastest;  ///< m/s
+    double fastest;         ///< m/s
+    bool is_whole = false;  ///< the word stands alone, or with an s: a businessman is no bus
 };
 constexpr Mover kMovers[] = {
     {"motor", kFastestOfAll},
@@ -49,24 +52,35 @@ constexpr Mover kMovers[] = {
     {"bik", 20},
     {"cycl", 20},
     {"robot", 20},
-    {"agv", 20},
+    {"agv", 20, true},
     {"drone", 40},
-    {"uav", 40},
-    {"car", kFastestOfAll},
-    {"bus", kFastestOfAll},
+    {"uav", 40, true},
+    {"car", kFastestOfAll, true},
+    {"bus", kFastestOfAll, true},
     {"truck", kFastestOfAll},
-    {"van", kFastestOfAll},
+    {"van", kFastestOfAll, true},
     {"taxi", kFastestOfAll},
     {"tram", kFastestOfAll},
     {"vehicle", kFastestOfAll},
     {"trailer", kFastestOfAll},
 };
 
+/// In small letters.
+bool is_of(std::string_view label, const Mover& mover) {
+    const auto is_letter = [&](std::size_t at) { return at < label.size() && label[at] >= 'a' && label[at] <= 'z'; };
+    const std::string_view word = mover.word;
+    for (std::size_t at = label.find(word); at != std::string_view::npos; at = label.find(word, at + 1)) {
+        std::size_t end = at + word.size();
+        if (end < label.size() && label[end] == 's') ++end;
+        if (!mover.is_whole || ((at == 0 || !is_letter(at - 1)) && !is_letter(end))) return true;
+    }
+    return false;
+}
+
 /// Null for a class that none fits.
 const Mover* mover_of(std::string_view label) {
     const std::string small = lower(label);
-    const auto* const at =
-        std::ranges::find_if(kMovers, [&](const Mover& mover) { return small.find(mover.word) != std::string::npos; });
+    const auto* const at = std::ranges::find_if(kMovers, [&](const Mover& mover) { return is_of(small, mover); });
     return at == std::end(kMovers) ? nullptr : at;
 }
 
@@ -148,7 +162,7 @@ class Judge {
 
     // ---- speeds of all
 
-    /// The median of the steps in which somebody moves, and one as fast.
+    /// The median of the steps in which somebody moves, and one as fast. Noise goes nowhere: it does not move.
     struct Median {
         double speed = 0;
         const Track* track = nullptr;
@@ -162,10 +176,10 @@ class Judge {
         std::vector<Median> speeds;
         std::size_t at = 0;
         for (const Track& track : file_.tracks) {
-            for (std::size_t i = 1; i < track.points.size(); ++i) {
-                if (at++ % every != 0) continue;
-                const double here = speed(track.points[i - 1], track.points[i]);
-                if (here > 0) speeds.push_back({here, &track, track.points[i].line});
+            for (std::size_t first = 0, last = 0; first + 1 < track.points.size(); first = last) {
+                last = std::min(first + kStepsTogether, track.points.size() - 1);
+                if (at++ % every == 0 && makes_headway(std::span(track.points).subspan(first, last - first + 1)))
+                    add_speeds(track, first, last, speeds);
             }
         }
         if (speeds.empty()) return std::nullopt;
@@ -173,6 +187,17 @@ class Judge {
         std::ranges::nth_element(speeds, middle, {}, &Median::speed);
         middle->of = speeds.size();
         return *middle;
+    }
+    bool makes_headway(std::span<const TrackPoint> points) const {
+        double path = 0;
+        for (std::size_t i = 1; i < points.size(); ++i) path += metres(points[i - 1], points[i]);
+        return path > 0 && metres(points.front(), points.back()) >= kLeastHeadway * path;
+    }
+    void add_speeds(const Track& track, std::size_t first, std::size_t last, std::vector<Median>& speeds) const {
+        for (std::size_t i = first + 1; i <= last; ++i) {
+            const double here = speed(track.points[i - 1], track.points[i]);
+            if (here > 0) speeds.push_back({here, &track, track.points[i].line});
+        }
     }
 
     void judge_speeds() {
@@ -191,7 +216,7 @@ class Judge {
                                  (file_.alone ? "" : "track " + in_quotes(median->track->id) + ", ") +
                                  at_line(median->line) + "), " +
                                  (is_slow                    ? "slower than anybody walks"
-                                  : fastest > kFastestPerson ? "faster than cars are"
+                                  : fastest > kFastestPerson ? "faster than its class is"
                                                              : "faster than people are") +
                                  remedies();
         if (is_absurd && is_proven && !scale_.is_said)
@@ -451,6 +476,8 @@ class Judge {
 };
 
 }  // namespace
+
+bool is_known_class(std::string_view label) { return mover_of(label) != nullptr; }
 
 double fastest_of(std::string_view label, double median) {
     if (const Mover* mover = mover_of(label)) return mover->fastest;

@@ -12,6 +12,9 @@
 
 namespace mobbscope {
 
+/// Whether it is known how fast a class is.
+bool is_known_class(std::string_view label);
+
 /// Metres a second that nobody of a class exceeds: 8 of people. `median`: of
 /// who has no class, what they do when they move.
 double fastest_of(std::string_view label, double median);

@@ -1,4 +1,5 @@
 #include <import/clip/sampling.h>
+#include <import/tracks/sanity.h>
 #include <import/tracks/sumo.h>
 #include <import/tracks/xml_text.h>
 #include <mobb/clip.h>
@@ -35,8 +36,9 @@ class SumoTracks {
         const std::string name =
             at->second == kind ? std::string(id) : std::string(kKinds[kind]) + ' ' + std::string(id);
         in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(point.frame);
-        // The usual types say less than the kind.
-        tracks_.add(name, point, type.empty() || type.starts_with("DEFAULT_") ? kKinds[kind] : type);
+        // A type of which nothing is known says less than the kind.
+        const bool is_known = !type.starts_with("DEFAULT_") && is_known_class(type);
+        tracks_.add(name, point, is_known ? type : kKinds[kind]);
     }
 
     TrackFile finish() {
@@ -52,7 +54,9 @@ class SumoTracks {
         if (riding_ > 0)
             out.warnings.push_back({counted(riding_, "row of somebody who rides", "rows of those who ride") +
                                     " in a vehicle are left out"});
-        if (nowhere_ > 0) out.warnings.push_back({counted(nowhere_, "row", "rows") + " without a place are left out"});
+        if (nowhere_ > 0)
+            out.warnings.push_back(
+                {counted(nowhere_, "row without a place is", "rows without a place are") + " left out"});
         return out;
     }
 

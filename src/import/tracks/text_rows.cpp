@@ -219,7 +219,9 @@ class TextRows final : public Cells {
     std::string_view text(std::size_t column) const override { return fields_[column].text; }
     bool is_empty(std::size_t column) const override {
         const auto& [field, known] = fields_[column];
-        return std::isnan(known) && (field.empty() || field == "?" || lower(field) == "nan");
+        if (!std::isnan(known)) return false;
+        const auto is = [word = lower(field)](std::string_view none) { return word == none; };
+        return std::ranges::any_of(std::array{"", "?", "-", "nan", "na", "n/a", "null", "none"}, is);
     }
     int line() const override { return lines_.number(); }
     std::string place(std::size_t column) const override {
@@ -444,9 +446,10 @@ class TextRows final : public Cells {
 
     void find_scopes() {
         if (header_line_ == 0 || !rows_[Column::id] || options_.columns) return;
-        constexpr std::array<std::string_view, 12> kScopes{"recordingid", "recording", "sceneid",    "scene",
-                                                           "caseid",      "case",      "sequenceid", "sessionid",
-                                                           "videoid",     "video",     "runid",      "location"};
+        constexpr std::array<std::string_view, 21> kScopes{
+            "recordingid", "recording", "sceneid",    "scene",   "caseid",    "case",    "sequenceid",
+            "sequence",    "sessionid", "session",    "videoid", "video",     "runid",   "run",
+            "trialid",     "trial",     "experiment", "episode", "episodeid", "dataset", "location"};
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const std::string word = plain_name(names_[i]).word;
             if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
@@ -542,7 +545,10 @@ class TextRows final : public Cells {
         }
         // All lengths are in the unit of the first column that says one.
         double factor = 1;
-        if (is.says_unit) {
+        if (is.says_unit && column == Column::r && unit_why_.empty()) {
+            // Places without a unit are in metres all the same.
+            factor = options_.unit ? 1 : is.scale;
+        } else if (is.says_unit) {
             if (unit_why_.empty()) {
                 unit_ = is.scale;
                 unit_why_ = "the column " + in_quotes(names_[found.front()]);
