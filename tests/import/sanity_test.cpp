@@ -5,6 +5,7 @@
 #include <import/import.h>
 #include <import/tracks/sanity.h>
 #include <import/tracks/text_rows.h>
+#include <mobb/random_motion.h>
 #include <support/folders.h>
 #include <support/input_error.h>
 
@@ -252,13 +253,16 @@ TEST(Sanity, UnitsThatNobodyMovesInAreRefusedUntilTheyAreSaid) {
 
 /// Noise is no motion.
 TEST(Sanity, ACrowdThatStandsIsRead) {
-    std::string rows = "id,t,x,y\n";
-    for (int id = 0; id < 20; ++id) {
-        for (int i = 0; i < 100; ++i)
-            rows +=
-                formatted("%d,%.2f,%.4f,%.4f\n", id, 0.01 * i, 3.0 * id + 0.0003 * (i * 7 % 5), 0.0003 * (i * 3 % 7));
+    mobb::test::Random random(7);
+    for (const double noise : {0.0003, 0.002, 0.05}) {
+        std::string rows = "id,t,x,y\n";
+        for (int id = 0; id < 20; ++id) {
+            for (int i = 0; i < 100; ++i)
+                rows += formatted("%d,%.2f,%.5f,%.5f\n", id, 0.1 * i, 3 * id + random.real(-noise, noise),
+                                  random.real(-noise, noise));
+        }
+        for (const ImportedClip& clip : csv_clips(rows)) EXPECT_EQ(clip.facts.doubt, "") << clip.id << ' ' << noise;
     }
-    for (const ImportedClip& clip : csv_clips(rows)) EXPECT_EQ(clip.facts.doubt, "") << clip.id;
 }
 
 TEST(Sanity, AColumnOfRadiiSaysTheirUnitAlone) {

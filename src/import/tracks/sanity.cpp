@@ -30,6 +30,7 @@ constexpr double kMostStepsOfPause = 20;
 constexpr std::size_t kMostSpeeds = 1 << 16;  // points that a median is taken of, about
 constexpr std::size_t kFewestSpeeds = 10;     // that prove anything
 constexpr std::size_t kStepsTogether = 10;    // of which a speed is taken: noise goes nowhere
+constexpr double kLeastShare = 0.5;           // of the time in which they move, for their being slow to be told
 constexpr double kLeastHeadway = 0.3;         // of who moves: the way that is left of the path
 
 /// By a part of the class's name in small letters; the first that fits.
@@ -168,24 +169,29 @@ class Judge {
         const Track* track = nullptr;
         int line = 0;
         std::size_t of = 0;  ///< so many
+        double share = 0;    ///< of the time somebody makes headway
     };
     std::optional<Median> median_of_all() const {
         std::size_t points = 0;
         for (const Track& track : file_.tracks) points += track.points.size();
         const std::size_t every = points / kMostSpeeds + 1;
         std::vector<Median> speeds;
-        std::size_t at = 0;
+        std::size_t at = 0, looked_at = 0, moving = 0;
         for (const Track& track : file_.tracks) {
             for (std::size_t first = 0, last = 0; first + 1 < track.points.size(); first = last) {
                 last = std::min(first + kStepsTogether, track.points.size() - 1);
-                if (at++ % every == 0 && makes_headway(std::span(track.points).subspan(first, last - first + 1)))
-                    add_speeds(track, first, last, speeds);
+                if (at++ % every != 0) continue;
+                ++looked_at;
+                if (!makes_headway(std::span(track.points).subspan(first, last - first + 1))) continue;
+                ++moving;
+                add_speeds(track, first, last, speeds);
             }
         }
         if (speeds.empty()) return std::nullopt;
         const auto middle = speeds.begin() + std::ssize(speeds) / 2;
         std::ranges::nth_element(speeds, middle, {}, &Median::speed);
         middle->of = speeds.size();
+        middle->share = static_cast<double>(moving) / static_cast<double>(looked_at);
         return *middle;
     }
     bool makes_headway(std::span<const TrackPoint> points) const {
@@ -208,7 +214,8 @@ class Judge {
         double fastest = 0;
         for (const Track& track : file_.tracks)
             fastest = std::max(fastest, std::min(fastest_of(label(track), kOfPeople), kFastestMedian));
-        const bool is_fast = median_ > fastest, is_slow = median_ < kSlowMedian;
+        // Who stands makes some headway by chance.
+        const bool is_fast = median_ > fastest, is_slow = median_ < kSlowMedian && median->share >= kLeastShare;
         const bool is_absurd = median_ > kFastestMedian || median_ < kSlowestMedian;
         const bool is_proven = median->of >= kFewestSpeeds && !file_.alone;
         if ((!is_fast && !is_slow) || (!is_proven && (scale_.is_said || !is_absurd))) return;
