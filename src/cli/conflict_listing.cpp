@@ -8,8 +8,10 @@
 #include <conflicts/conflicts.h>
 #include <import/tracks/text_rows.h>
 #include <mobb_tracks/encounter.h>
+#include <scene/scene_json.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -80,8 +82,10 @@ void write_json(const ConflictListing& listing) {
     if (listing.left_out) out.member("left_out", *listing.left_out);
     if (listing.within) out.member("within", *listing.within);
     if (listing.least_seconds) out.member("min_duration", *listing.least_seconds);
-    if (listing.part)
+    if (listing.part) {
         out.member("part", std::initializer_list<double>{double(listing.part->part), double(listing.part->parts)});
+        out.member("digest", digest_text(listing.digest));
+    }
     Chains chains;
     out.begin_array("conflicts");
     for (std::size_t i = 0; i < listing.size; ++i) {
@@ -204,6 +208,7 @@ void write_text(const ConflictListing& listing) {
 // Reading parts.
 
 constexpr double kFar = std::numeric_limits<double>::max();
+constexpr int kMostAgents = 10'000'000;  // no file has more samples
 
 std::optional<double> optional_number(const JsonPlace& in, const char* key) {
     const auto at = in.find(key);
@@ -220,12 +225,22 @@ glm::dvec2 read_place(const JsonPlace& in, const char* key) {
     return in.require(key).vector<glm::dvec2>(kFar, "[x, y]");
 }
 
-ListedConflict read_row(const JsonPlace& in) {
+/// Two whole numbers, the earlier the lesser or the same.
+std::pair<int, int> read_numbers(const JsonPlace& in, const char* key, int least, int most) {
+    const JsonPlace at = in.require(key);
+    const glm::dvec2 read = at.vector<glm::dvec2>(kFar, "[a, b]");
+    if (read.x != std::floor(read.x) || read.y != std::floor(read.y) || read.x < least || read.x > read.y ||
+        read.y > most)
+        at.fail("must be two whole numbers from " + std::to_string(least) + " to " + std::to_string(most) +
+                ", the lesser first; ask for this part again");
+    return {static_cast<int>(read.x), static_cast<int>(read.y)};
+}
+
+ListedConflict read_row(const JsonPlace& in, std::size_t agents) {
     constexpr int kMost = std::numeric_limits<int>::max();
     ListedConflict out;
-    const glm::dvec2 agents = in.require("agents").vector<glm::dvec2>(kMost, "[a, b]");
-    out.a = static_cast<int>(agents.x);
-    out.b = static_cast<int>(agents.y);
+    std::tie(out.a, out.b) = read_numbers(in, "agents", 0, static_cast<int>(agents) - 1);
+    if (out.a == out.b) in.fail("names one agent twice; ask for this part again");
     out.a_name = in.require("a").string();
     out.b_name = in.require("b").string();
     in.require("intervals").each([&](const JsonPlace& of) {
@@ -257,19 +272,24 @@ ListedConflict read_row(const JsonPlace& in) {
 ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedConflict>& rows) {
     const std::string name = file.string();
     const std::string text = read_file(file);
-    // One that was killed while it was written ends anywhere.
-    if (!text.ends_with("}\n"))
-        throw InputError(name, "", "is not whole; ask for this part again: mobbscope conflicts ... --part K/N");
-    const JsonText json = parse_json(text, name);
+    const JsonText json = [&] {
+        try {
+            return parse_json(text, name);
+        } catch (const InputError&) {
+            // One that was killed while it was written ends anywhere.
+            throw InputError(name, "", "is not whole; ask for this part again: mobbscope conflicts ... --part K/N");
+        }
+    }();
     const JsonPlace in(json, name);
     ConflictListing out;
     const auto part = in.find("part");
     if (!part) in.fail("is no part; give what mobbscope conflicts --part K/N has written");
-    const glm::dvec2 numbers = part->vector<glm::dvec2>(kFar, "[K, N]");
-    out.part = {static_cast<int>(numbers.x), static_cast<int>(numbers.y)};
+    const auto [number, of] = read_numbers(in, "part", 1, kMostParts);
+    out.part = {number, of};
+    out.digest = read_digest(in.require("digest"));
     out.file = in.require("file").string();
     out.t0 = optional_number(in, "t0");
-    out.agents = static_cast<std::size_t>(in.require("agents").count());
+    out.agents = static_cast<std::size_t>(in.require("agents").integer(0, kMostAgents));
     out.radius = optional_number(in, "radius");
     out.pairs = static_cast<std::size_t>(in.require("pairs").count());
     out.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
@@ -277,7 +297,7 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
     if (const auto left_out = in.find("left_out")) out.left_out = static_cast<std::size_t>(left_out->count());
     out.within = optional_number(in, "within");
     out.least_seconds = optional_number(in, "min_duration");
-    in.require("conflicts").each([&](const JsonPlace& row) { rows.push_back(read_row(row)); });
+    in.require("conflicts").each([&](const JsonPlace& row) { rows.push_back(read_row(row, out.agents)); });
     return out;
 }
 
@@ -285,8 +305,8 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
 
 bool ConflictListing::is_of_the_same(const ConflictListing& other) const {
     const auto of = [](const ConflictListing& one) {
-        return std::tuple(one.file, one.t0, one.agents, one.radius, one.pairs, one.within, one.least_seconds,
-                          one.left_out.has_value(), one.part ? one.part->parts : 0);
+        return std::tuple(one.file, one.digest, one.t0, one.agents, one.radius, one.pairs, one.within,
+                          one.least_seconds, one.left_out.has_value(), one.part ? one.part->parts : 0);
     };
     return of(*this) == of(other);
 }

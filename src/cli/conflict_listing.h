@@ -36,6 +36,8 @@ struct ListedConflict {
     std::optional<ListedSeconds> time_to_collision, post_encroachment;  ///< of encounters
 };
 
+inline constexpr int kMostParts = 1'000'000;
+
 /// What one part of several has found.
 struct ListedPart {
     int part = 0, parts = 0;  ///< from 1
@@ -53,6 +55,7 @@ struct ConflictListing {
     std::optional<double> within;  ///< metres: these are encounters
     std::optional<double> least_seconds;
     std::optional<ListedPart> part;
+    std::uint64_t digest = 0;             ///< of a part: of the crowd, as it is placed
     std::optional<std::size_t> left_out;  ///< conflicts that rest on invented motion, where they are not listed
 
     std::size_t size = 0;

@@ -28,8 +28,6 @@ namespace mobbscope::cli {
 
 namespace {
 
-constexpr int kMostParts = 1'000'000;
-
 struct ConflictsCommandArguments : FittedArguments {
     bool check = false;
     bool csv = false;
@@ -250,6 +248,7 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
             arguments.within,
             arguments.least_seconds,
             arguments.part,
+            arguments.part ? crowd_digest(findings.scene) : 0,
             arguments.strict_motion ? std::optional(found.size() - findings.listed.size()) : std::nullopt,
             findings.listed.size(),
             [&findings, within = arguments.within](std::size_t i) {

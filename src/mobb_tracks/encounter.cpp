@@ -13,6 +13,7 @@ namespace mobb {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kLongest = 1e6;  // seconds: who comes nearer so slowly does it by rounding
 constexpr std::int64_t kMostVisits = 100'000;
 
 /// The least over [begin, end] of s, in seconds.
@@ -32,7 +33,8 @@ double least_time_to_collision(const Approach& approach, Approach::Range over) {
         falls = A > 0 ? std::min(one, other) : std::max(one, other);
     }
     if (falls < over.begin || falls == kNever) return kNever;
-    return std::max(0.0, falls - over.end) * per_s;
+    const double seconds = std::max(0.0, falls - over.end) * per_s;
+    return seconds <= kLongest ? seconds : kNever;
 }
 
 }  // namespace

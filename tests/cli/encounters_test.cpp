@@ -177,6 +177,24 @@ TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
     expect_refused(run_program(merge({file})), 2, "is not whole");
     expect_refused(run_program(merge({folder.write("whole.json", run_program({"conflicts", file, "--json"}).out)})), 2,
                    "is no part");
+    // Of the same name, and something else.
+    for (const char* const option : {"--motion", "--trim"}) {
+        const std::string value = option == std::string("--motion") ? "held" : "0:4";
+        folder.write("part2.json", run_program({"conflicts", file, option, value, "--part", "2/3"}).out);
+        expect_refused(run_program(merge(files)), 2, "part2.json: is a part of another whole");
+    }
+    json wrong = json_of({"conflicts", file, "--part", "2/3"});
+    for (const json& agents : {json{-5, -7}, json{70, 3}, json{3, 3}, json{1.5, 2}, json{1, 1e300}}) {
+        wrong["conflicts"][0]["agents"] = agents;
+        folder.write("part2.json", wrong.dump());
+        expect_refused(run_program(merge(files)), 2, "ask for this part again");
+    }
+    for (const json& part : {json{2.5, 3}, json{0, 0}, json{2, 1e300}}) {
+        wrong["part"] = part;
+        folder.write("part2.json", wrong.dump());
+        expect_refused(run_program(merge(files)), 2, "ask for this part again");
+    }
+    folder.write("part2.json", run_program({"conflicts", file, "--part", "2/3"}).out);
     // Killed half way, and asked again.
     const std::string whole = read_file(files[1]);
     folder.write("part2.json", whole.substr(0, whole.size() / 2));
