@@ -120,9 +120,11 @@ mobb::Motion motion_as_csv(const Scene& scene) {
 /// Tracks are judged when they are read, and these may be of anything.
 void warn_of_judged_tracks(const Scene& scene, const std::string& text, const std::filesystem::path& out) {
     if (scene.clips.size() < 2) return;
+    std::optional<TrackFile> tracks;
     const auto read_with = [&](const ImportOptions& options) -> std::optional<std::size_t> {
         try {
-            return track_clips(parse_csv(text, out.string()), out, options).size();
+            if (!tracks) tracks = parse_csv(text, out.string());
+            return track_clips(*tracks, out, options).size();
         } catch (const InputError&) {
             return std::nullopt;
         }

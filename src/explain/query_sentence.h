@@ -27,9 +27,8 @@ std::string outcome_text(std::span<const DrawnAgent> sides, const mobb::Trace::E
 std::string short_outcome(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
 /// A test with all digits, for comparing traces: "A 2.1 against B 2.3, obb2d: separated along B's long axis by 0.1834
-/// m",
-/// "..., samples: hit (3 pairs measured, samples 4 and 5 at 0.3 m)". The event may be of another tree: a node that the
-/// side's tree lacks is "A node 57".
+/// m", "..., samples: hit (3 pairs measured, samples 4 and 5 at 0.3 m)". The event may be of another tree: a node that
+/// the side's tree lacks is "A node 57".
 std::string plain_sentence(std::span<const DrawnAgent> sides, const mobb::Trace::Event& event);
 
 /// "a line keeps the disks 0.310 m apart; the box of A 2.1 is to blame"

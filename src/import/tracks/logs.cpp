@@ -21,11 +21,6 @@ constexpr std::size_t kLookedAt = 10;  // rows that tell poses from other rows o
 // Of KITTI's matrix the fourth column is the place: right, down, forward.
 constexpr std::size_t kRight = 3, kDown = 7, kForward = 11;
 
-std::string_view without_mark(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    return text;
-}
-
 char separator_in(std::string_view line) {
     for (const char c : {';', ',', '\t'}) {
         if (line.find(c) != std::string_view::npos) return c;
@@ -184,10 +179,11 @@ class LogParser {
             if (!is_comment()) read_row();
         }
         if (tracks_.empty()) lines_.fail("there is no row with a place after the header; check the columns");
-        TrackFile out = finished();
-        out.timed = true;
-        out.least_step.reset();
-        if (in_milliseconds_) out.rounding = kMillisecond;
+        TrackFile out = tracks_.take_timed(in_milliseconds_);
+        out.format = format_;
+        if (without_place_ > 0)
+            out.warnings.push_back(
+                {counted(without_place_, "row without a place is", "rows without a place are") + " left out"});
         return out;
     }
 
@@ -290,7 +286,10 @@ class LogParser {
         const std::size_t up = extent(2) == 0 && extent(1) > 0 ? 2 : 1;
         for (std::size_t i = 0; i < places.size(); ++i)
             tracks_.add(kRobot, {static_cast<double>(i), places[i][0], places[i][up == 2 ? 1 : 2], at[i]}, label_);
-        TrackFile out = finished();
+        TrackFile out;
+        out.format = format_;
+        out.tracks = tracks_.take_sorted();
+        out.spent = tracks_.take_spent();
         out.rate = kKittiRate;
         out.rate_assumption =
             "the poses have no times: 10 a second are assumed, as in KITTI; give dt (seconds from one to the next) if "
@@ -298,19 +297,6 @@ class LogParser {
         out.warnings.push_back(
             {std::string("the ground is taken to be ") +
              (up == 2 ? "x and y, as the third axis never changes" : "x and z of the camera, whose y points down")});
-        return out;
-    }
-
-    TrackFile finished() {
-        TrackFile out;
-        out.format = format_;
-        out.tracks = tracks_.take_sorted([](const Track& track, const TrackPoint& point) {
-            return "the time " + format_double(point.frame) + " of " + in_quotes(track.id) + " stands already in line ";
-        });
-        out.spent = tracks_.take_spent();
-        if (without_place_ > 0)
-            out.warnings.push_back(
-                {counted(without_place_, "row without a place is", "rows without a place are") + " left out"});
         return out;
     }
 

@@ -255,7 +255,7 @@ class TextPlanParser {
 }  // namespace
 
 bool looks_like_mapf_text_plan(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = without_mark(text);
     bool first_is_count = false;
     for (std::string_view line = take_row(text); !line.empty(); line = take_row(text)) {
         if (const auto label = read_label(line)) return label->cells.starts_with('(');

@@ -113,7 +113,7 @@ bool RowReader::is_left_out(const Cells& cells) {
 void RowReader::check_order(const Cells& cells, double time) const {
     if (time > last_) return;
     const std::vector<std::size_t> from = (*this)[has(Column::frame) ? Column::frame : Column::t]->columns();
-    cells.fail(from.empty() ? 0 : from.front(),
+    cells.fail(from.empty() ? Cells::kNoColumn : from.front(),
                time_word() + " does not come after " + format_double(last_) +
                    " of the row before; sort the rows and remove doubles" +
                    (time == last_ && !has(Column::frame) ? rounded_time_hint(time) : "") + order_hint);

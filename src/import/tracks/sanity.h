@@ -1,5 +1,5 @@
-/// Whether the numbers of tracks can be people, bikes, cars or robots. Tracks
-/// are taken apart where they cannot be one's.
+/// Whether the numbers of tracks can be people, bikes, cars or robots. Tracks are taken apart where they cannot be
+/// one's.
 #pragma once
 
 #include <import/tracks/tracks.h>
@@ -15,8 +15,8 @@ namespace mobbscope {
 /// Whether it is known how fast a class is.
 bool is_known_class(std::string_view label);
 
-/// Metres a second that nobody of a class exceeds: 8 of people. `median`: of
-/// who has no class, what they do when they move.
+/// Metres a second that nobody of a class exceeds: 8 of people. `median`: of who has no class, what they do when they
+/// move.
 double fastest_of(std::string_view label, double median);
 
 /// Seconds: after longer ones a track is another one. `step`: usual, in seconds.
@@ -27,8 +27,7 @@ struct TrackScale {
     double metres = 1;         ///< per unit of length
     double seconds = 1;        ///< per frame
     double step = 1;           ///< usual, in frames
-    bool is_said = false;      ///< an option says the unit of lengths or times:
-                               ///< nothing is refused
+    bool is_said = false;      ///< an option says the unit of lengths or times: nothing is refused
     bool keeps_jumps = false;  ///< tracks stay whole
 };
 
@@ -50,9 +49,8 @@ struct JudgedTracks {
     std::deque<std::vector<TrackPoint>> made{};  ///< points of parts that lack some of their tracks'
 };
 
-/// Throws std::invalid_argument where who moves has a median speed over 45 or
-/// under 0.01 m/s, unless the scale is said or
-/// few rows tell it.
+/// Throws std::invalid_argument where who moves has a median speed over 45 or under 0.01 m/s, unless the scale is said
+/// or few rows tell it.
 JudgedTracks judge(const TrackFile& file, const TrackScale& scale);
 
 }  // namespace mobbscope

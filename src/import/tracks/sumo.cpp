@@ -42,15 +42,8 @@ class SumoTracks {
     }
 
     TrackFile finish() {
-        TrackFile out;
+        TrackFile out = tracks_.take_timed(in_milliseconds_);
         out.format = "sumo";
-        out.timed = true;
-        out.least_step.reset();
-        if (in_milliseconds_) out.rounding = kMillisecond;
-        out.tracks = tracks_.take_sorted([](const Track& track, const TrackPoint& point) {
-            return "the time " + format_double(point.frame) + " of " + in_quotes(track.id) + " stands already in line ";
-        });
-        out.spent = tracks_.take_spent();
         if (riding_ > 0)
             out.warnings.push_back({counted(riding_, "row of somebody who rides", "rows of those who ride") +
                                     " in a vehicle are left out"});
@@ -177,7 +170,7 @@ TrackFile tracks_of_xml(std::string_view text, const std::string& file) {
 
 bool looks_like_sumo(std::string_view text) {
     if (is_fcd(text)) return true;
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = without_mark(text);
     const std::string_view header = take_row(text);
     return header.find("timestep_time") != std::string_view::npos &&
            header.find_first_of(";,") != std::string_view::npos;

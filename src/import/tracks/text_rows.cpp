@@ -876,7 +876,7 @@ FieldCounts counts_of(std::string_view line, char separator) {
 }  // namespace
 
 bool looks_like_table(std::string_view text) {
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = without_mark(text);
     const std::string_view line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
     if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;

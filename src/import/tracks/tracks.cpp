@@ -1,3 +1,4 @@
+#include <import/clip/sampling.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
@@ -23,6 +24,18 @@ std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }
 
+TrackFile TrackCollector::take_timed(bool in_milliseconds) {
+    TrackFile out;
+    out.timed = true;
+    out.least_step.reset();
+    if (in_milliseconds) out.rounding = kMillisecond;
+    out.tracks = take_sorted([](const Track& track, const TrackPoint& point) {
+        return "the time " + format_double(point.frame) + " of " + in_quotes(track.id) + " stands already in line ";
+    });
+    out.spent = take_spent();
+    return out;
+}
+
 std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice,
                                                bool once) {
     for (Track& track : tracks_) {
@@ -45,6 +58,11 @@ std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(c
         throw InputError(file_, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
     }
     return take();
+}
+
+std::string_view without_mark(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    return text;
 }
 
 std::string_view take_row(std::string_view& text) {

@@ -110,6 +110,8 @@ class TrackCollector {
                                    bool once = false);
     std::size_t repeated() const { return repeated_; }      ///< rows that were left out
     int first_repeated() const { return first_repeated_; }  ///< line
+    /// A file of them, by times; `in_milliseconds`: all of these are rounded so. Throws likewise.
+    TrackFile take_timed(bool in_milliseconds);
     /// As they came.
     std::vector<Track> take() { return std::move(tracks_); }
     /// What they take of the budget.
@@ -127,6 +129,9 @@ class TrackCollector {
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last
 };
+
+/// A text without the byte order mark that it may begin with.
+std::string_view without_mark(std::string_view text);
 
 /// Takes the next line off a text that is neither blank nor a comment, without the blanks at its ends; "" at the end.
 std::string_view take_row(std::string_view& text);
