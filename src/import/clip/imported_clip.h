@@ -2,6 +2,7 @@
 #pragma once
 
 #include <import/clip/radii.h>
+#include <mobb/body.h>
 #include <mobb/clip.h>
 
 #include <cstddef>
@@ -112,6 +113,10 @@ struct ImportedClip {
     std::shared_ptr<const Skeleton> skeleton{};  ///< null without joints, and for very long clips
     /// Seconds: when it starts on the clock of its file's tracks (SourceFacts::t0), or after the first of its takes.
     double start = 0;
+    /// Of who is more than one disk: these, in place of the disks of the samples, which are around all of them.
+    std::vector<mobb::BodyDisk> body{};
+    std::vector<double> headings{};  ///< degrees, of a body whose file has them: one a sample; empty: as it moves
+    std::string floor{};             ///< of a building: those of different floors never meet; empty: nobody says
 };
 
 }  // namespace mobbscope
