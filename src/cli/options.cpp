@@ -171,7 +171,7 @@ void add_import_options(Command& command, ImportOptions& options) {
         "radii",
         "R");
     add("--columns", &ImportOptions::columns, as_it_is,
-        "Which columns of a table are id, t, frame, x, y, r and class, or how they are worked out: "
+        "Which columns of a table are id, t, frame, x, y, r, class and others, or how they are worked out: "
         "id=trackId,t=frame/25",
         "C");
     add("--motion", &ImportOptions::motion, one_of(mobb::motion_from_name, "held, linear"),

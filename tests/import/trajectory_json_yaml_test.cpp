@@ -93,14 +93,17 @@ TEST(MapfPlan, AgentsAreReadByName) {
     EXPECT_EQ(told[1].clip->samples()[3].y, 2);
 }
 
-TEST(MapfPlan, HeightsAreSaidToBeIgnored) {
-    const auto says = [](const std::string& text) {
-        return std::ranges::any_of(plan(text)[0].facts.warnings, [](const ImportWarning& warning) {
-            return warning.text == "the steps have heights (z), which are ignored: who passes above another meets them";
-        });
-    };
-    EXPECT_TRUE(says("schedule:\n  a:\n  - {t: 0, x: 0, y: 0, z: 1}\n"));
-    EXPECT_FALSE(says(kPlan));
+TEST(MapfPlan, HeightsAreFloors) {
+    const auto read = plan(
+        "schedule:\n  a:\n  - {t: 0, x: 0, y: 0, z: 1}\n  - {t: 1, x: 1, y: 0, z: 1}\n"
+        "  b:\n  - {t: 0, x: 1, y: 0, z: 2}\n  - {t: 1, x: 1, y: 0, z: 1}\n");
+    ASSERT_EQ(read.size(), 3u);
+    EXPECT_EQ(read[0].floor, "z 1");
+    EXPECT_EQ(read[1].floor, "z 2");
+    EXPECT_EQ(read[2].id, "b#2");
+    EXPECT_EQ(read[2].floor, "z 1");
+    EXPECT_EQ(read[2].start, 0) << "on its way down it is on both";
+    EXPECT_EQ(plan(kPlan)[0].floor, "");
 }
 
 TEST(MapfPlan, WhatStandsBeforeItsDocumentIsNone) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -12,25 +13,62 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::array<std::string_view, std::size(kColumns)> kColumnNames{"id", "t",     "frame", "x",     "y",
-                                                                         "r",  "class", "lost",  "active"};
+constexpr std::array<std::string_view, std::size(kColumns)> kColumnNames{
+    "id", "t", "frame", "x", "y", "r", "class", "lost", "active", "length", "width", "heading", "z", "floor"};
 
-constexpr double kFoot = 0.3048;  // metres
+constexpr double kFoot = 0.3048, kInch = 0.0254;  // metres
 
 struct Unit {
     std::string_view word;
     double size;
 };
-constexpr Unit kLengths[] = {
-    {"m", 1},      {"meter", 1},          {"metre", 1},          {"meters", 1},          {"metres", 1},
-    {"cm", 0.01},  {"centimeter", 0.01},  {"centimetre", 0.01},  {"centimeters", 0.01},  {"centimetres", 0.01},
-    {"mm", 0.001}, {"millimeter", 0.001}, {"millimetre", 0.001}, {"millimeters", 0.001}, {"millimetres", 0.001},
-    {"ft", kFoot}, {"foot", kFoot},       {"feet", kFoot}};
+constexpr Unit kLengths[] = {{"m", 1},
+                             {"meter", 1},
+                             {"metre", 1},
+                             {"meters", 1},
+                             {"metres", 1},
+                             {"cm", 0.01},
+                             {"centimeter", 0.01},
+                             {"centimetre", 0.01},
+                             {"centimeters", 0.01},
+                             {"centimetres", 0.01},
+                             {"mm", 0.001},
+                             {"millimeter", 0.001},
+                             {"millimetre", 0.001},
+                             {"millimeters", 0.001},
+                             {"millimetres", 0.001},
+                             {"ft", kFoot},
+                             {"foot", kFoot},
+                             {"feet", kFoot},
+                             {"inch", kInch},
+                             {"inches", kInch}};  // "in" is said of other things
 constexpr Unit kTimes[] = {{"s", 1},       {"sec", 1},      {"second", 1},          {"seconds", 1},
                            {"ms", 0.001},  {"msec", 0.001}, {"millisecond", 0.001}, {"milliseconds", 0.001},
                            {"us", 1e-6},   {"usec", 1e-6},  {"microsecond", 1e-6},  {"microseconds", 1e-6},
                            {"ns", 1e-9},   {"nsec", 1e-9},  {"nanosecond", 1e-9},   {"nanoseconds", 1e-9},
-                           {"minute", 60}, {"minutes", 60}, {"hour", 3600},         {"hours", 3600}};
+                           {"min", 60},    {"minute", 60},  {"minutes", 60},        {"h", 3600},
+                           {"hour", 3600}, {"hours", 3600}};
+constexpr double kRadian = 180 / std::numbers::pi;  // degrees
+constexpr Unit kAngles[] = {{"deg", 1},       {"degree", 1},       {"degrees", 1},      {"\u00b0", 1},
+                            {"rad", kRadian}, {"radian", kRadian}, {"radians", kRadian}};
+
+std::span<const Unit> units_of(Column column) {
+    switch (column) {
+        case Column::t:
+            return kTimes;
+        case Column::x:
+        case Column::y:
+        case Column::r:
+        case Column::length:
+        case Column::width:
+        case Column::z:
+            return kLengths;
+        case Column::heading:
+            return kAngles;
+        default:
+            return {};
+    }
+}
 
 std::optional<double> size_of(std::span<const Unit> units, std::string_view word) {
     const auto at = std::ranges::find(units, word, &Unit::word);
@@ -44,6 +82,7 @@ struct Aliases {
     std::vector<std::string_view> words;
     bool is_weak = false;
     std::string_view unit{};  ///< of its values, where the words imply one
+    double share = 1;         ///< see KnownColumn
 };
 
 const std::vector<Aliases>& aliases() {
@@ -73,7 +112,20 @@ const std::vector<Aliases>& aliases() {
         {Column::y, {"localy"}, false, "ft"},
         {Column::y, {"northing", "worldy", "yworld", "persony", "vehicley"}, true},
         {Column::r, {"r", "radius"}},
+        {Column::r, {"diameter"}, true, "", 0.5},
         {Column::label, {"class", "label", "type", "agenttype", "objecttype", "vehicletype", "persontype", "category"}},
+        {Column::length, {"length", "vehiclelength", "objectlength", "bboxlength", "boxlength"}},
+        {Column::length, {"vlength"}, false, "ft"},
+        {Column::length, {"l"}, true},
+        {Column::width, {"width", "vehiclewidth", "objectwidth", "bboxwidth", "boxwidth"}},
+        {Column::width, {"vwidth"}, false, "ft"},
+        {Column::width, {"w"}, true},
+        {Column::heading, {"heading", "psi", "yaw", "theta", "orientation", "headingangle", "yawangle", "facingangle"}},
+        {Column::heading, {"angle", "anglemotion", "direction"}, true},
+        {Column::z,
+         {"z", "posz", "zpos", "positionz", "zposition", "zcenter", "zcentre", "worldz", "coordz", "zcoord"}},
+        {Column::z, {"altitude", "elevation"}, true},
+        {Column::floor, {"floor", "storey", "story", "level", "floorid", "floornumber", "levelid", "storeyid"}},
         {Column::lost, {"lost"}},
         {Column::active, {"active"}}};
     return table;
@@ -97,7 +149,7 @@ PlainName plain_name(std::string_view name) {
     if (unit != std::string::npos && unit > 0) {
         std::string word = text.substr(unit + 1);
         if (!word.empty() && (word.back() == ']' || word.back() == ')')) word.pop_back();
-        if (mark != std::string::npos || metres_of_unit(word) || size_of(kTimes, word)) {
+        if (mark != std::string::npos || metres_of_unit(word) || size_of(kTimes, word) || size_of(kAngles, word)) {
             out.unit = trimmed(word);
             text.resize(unit);
         }
@@ -117,11 +169,9 @@ std::optional<KnownColumn> known_column(std::string_view name) {
     KnownColumn out{alias->column};
     const std::string_view unit = plain.unit.empty() ? alias->unit : std::string_view(plain.unit);
     out.is_weak = alias->is_weak;
+    out.share = alias->share;
     if (unit.empty()) return out;
-    const bool is_length = out.column == Column::x || out.column == Column::y || out.column == Column::r;
-    const std::optional<double> scale = out.column == Column::t ? size_of(kTimes, unit)
-                                        : is_length             ? metres_of_unit(unit)
-                                                                : std::nullopt;
+    const std::optional<double> scale = size_of(units_of(out.column), unit);
     // A length in seconds is something else.
     if (!scale) return std::nullopt;
     out.scale = *scale;

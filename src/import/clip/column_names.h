@@ -8,12 +8,14 @@
 
 namespace mobbscope {
 
-/// `label`: the class of who is tracked; `lost` and `active`: whether a row does not count, or does.
-enum class Column : std::uint8_t { id, t, frame, x, y, r, label, lost, active };
-inline constexpr Column kColumns[] = {Column::id, Column::t,     Column::frame, Column::x,     Column::y,
-                                      Column::r,  Column::label, Column::lost,  Column::active};
+/// `label`: the class of who is tracked; `lost` and `active`: whether a row does not count, or does; `length`, `width`
+/// and `heading`: of a body; `z` and `floor`: what keeps people apart.
+enum class Column : std::uint8_t { id, t, frame, x, y, r, label, lost, active, length, width, heading, z, floor };
+inline constexpr Column kColumns[] = {Column::id,    Column::t,       Column::frame, Column::x,      Column::y,
+                                      Column::r,     Column::label,   Column::lost,  Column::active, Column::length,
+                                      Column::width, Column::heading, Column::z,     Column::floor};
 
-/// "id", "t", "frame", "x", "y", "r", "class", "lost", "active".
+/// "id", "t", ...; of `label` "class".
 std::string_view name(Column column);
 std::optional<Column> column_from_name(std::string_view name);
 
@@ -28,7 +30,8 @@ PlainName plain_name(std::string_view name);
 /// What a column stands for by its name alone.
 struct KnownColumn {
     Column column;
-    double scale = 1;        ///< seconds or metres for each of its units; 1 of frames and ids
+    double scale = 1;        ///< seconds, metres or degrees for each of its units; 1 of frames and ids
+    double share = 1;        ///< of its numbers what counts: half of a diameter
     bool says_unit = false;  ///< the name tells the unit
     bool is_weak = false;    ///< the name may mean something else: where another one stands for the same, that is meant
 };

@@ -66,7 +66,7 @@ inline constexpr ImportOption kImportOptions[] = {
      &ImportOptions::radius, true, true, true},
     {"dt", "Frame time", "Seconds between rows without times, or from one frame number to the next", "s",
      &ImportOptions::dt, false, true, true},
-    {"columns", "Columns", "Which columns of a table are id, t, frame, x, y, r and class: id=trackId,t=frame/25", "",
+    {"columns", "Columns", "Which columns of a table are id, t, x, y, r and others: id=trackId,t=frame/25", "",
      &ImportOptions::columns, false, true, true},
     {"motion", "Motion", "What a disk does until the next sample: it stays, or runs straight to it", "",
      &ImportOptions::motion, true, true, true},

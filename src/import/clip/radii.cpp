@@ -42,11 +42,6 @@ std::pair<std::string, std::string_view> key_and_value(const TextLines& lines) {
 
 }  // namespace
 
-std::optional<double> class_radius(std::string_view name) {
-    const auto at = std::ranges::find(kClassRadii, name, &ClassRadius::name);
-    return at == std::end(kClassRadii) ? std::nullopt : std::optional(at->radius);
-}
-
 double RadiusTable::of(const std::string& key) const {
     const auto at = radii.find(key);
     if (at != radii.end()) return at->second;

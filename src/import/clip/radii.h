@@ -1,4 +1,4 @@
-/// Where radii come from: metres, a column of a CSV, a file of ids or classes; and what a class of road users has.
+/// Where radii come from: metres, a column of a CSV, a file of ids or classes.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,6 @@ namespace mobbscope {
 
 /// Metres: the radius of people whose file has none, about half a shoulder width.
 inline constexpr double kDefaultTrackRadius = 0.2;
-
-/// A class of road users, as the Stanford Drone Dataset names it.
-struct ClassRadius {
-    std::string_view name;
-    double radius;  ///< metres: of who walks as of people, else half of the usual length
-};
-
-/// Every class that has a radius; others have kDefaultTrackRadius.
-inline constexpr ClassRadius kClassRadii[] = {
-    {"Pedestrian", kDefaultTrackRadius}, {"Skater", 0.3}, {"Biker", 0.9}, {"Cart", 1.2}, {"Car", 2.25}, {"Bus", 6},
-};
-
-/// None for a class that is not in the table.
-std::optional<double> class_radius(std::string_view name);
 
 /// A file of radii.
 struct RadiusTable {

@@ -140,9 +140,7 @@ class PlanReader {
         if (yaml_.type() == YAML_DOCUMENT_START_EVENT) yaml_.fail("holds several documents ('---'); leave one plan");
         if (tracks_.empty()) yaml_.fail(schedule_line_, "the schedule has no step; add agents with t, x, y");
         TrackFile out = plan_of(tracks_.take_sorted(), file_, tracks_.take_spent());
-        if (has_heights_)
-            out.warnings.push_back(
-                {"the steps have heights (z), which are ignored: who passes above another meets them"});
+        out.details = std::move(heights_);
         if (without_steps_ > 0) {
             out.warnings.push_back({counted(without_steps_, "agent has", "agents have") + " no step, such as " +
                                     in_quotes(without_step_) + "; left out"});
@@ -203,7 +201,7 @@ class PlanReader {
         const std::string anchor = yaml_.anchor();
         TrackPoint point;
         point.line = yaml_.line();
-        bool has_t = false, has_x = false, has_y = false;
+        bool has_t = false, has_x = false, has_y = false, has_z = false;
         for (yaml_.next(); yaml_.type() != YAML_MAPPING_END_EVENT; yaml_.next()) {
             const std::string_view key = yaml_.is_scalar() ? yaml_.scalar() : "";
             if (key == "t") {
@@ -212,9 +210,12 @@ class PlanReader {
                 read_number("x", point.x, has_x, mobb::kMaxLength);
             } else if (key == "y") {
                 read_number("y", point.y, has_y, mobb::kMaxLength);
+            } else if (key == "z") {
+                heights_.emplace_back();
+                read_number("z", heights_.back().z, has_z, mobb::kMaxLength);
+                point.detail = static_cast<int>(heights_.size());
             } else {
                 if (key == kMergeKey && !yaml_.is_quoted()) fail_at_merge_key();
-                has_heights_ = has_heights_ || key == "z";
                 yaml_.pass_over();
                 yaml_.next();
                 yaml_.pass_over();
@@ -267,7 +268,7 @@ class PlanReader {
     std::size_t most_;  ///< steps that may still come
     TrackCollector tracks_{file_};
     int schedule_line_ = 1;
-    bool has_heights_ = false;
+    std::vector<PointDetail> heights_;
     int without_steps_ = 0;     ///< agents
     std::string without_step_;  ///< the first of them
     // By anchor, of what stands in the schedule.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace mobbscope {
@@ -84,6 +85,50 @@ std::string_view RowReader::label(const Cells& cells) const {
     return text;
 }
 
+bool RowReader::has_details() const {
+    return std::ranges::any_of(std::array{Column::length, Column::heading, Column::z, Column::floor},
+                               [this](Column column) { return has(column); });
+}
+
+PointDetail RowReader::detail(const Cells& cells) {
+    const auto number = [&](Column column, double largest) {
+        if (!has(column)) return PointDetail::kUntold;
+        const double value =
+            (*this)[column]->of([&cells](std::size_t at) { return cells.value(at).value_or(PointDetail::kUntold); });
+        return std::abs(value) <= largest ? value : PointDetail::kUntold;
+    };
+    const auto size = [&](Column column) {
+        const double value = number(column, mobb::kMaxLength);
+        return value > 0 ? value : 0;
+    };
+    PointDetail out{size(Column::length), size(Column::width), number(Column::heading, mobb::kMaxDegrees),
+                    number(Column::z, mobb::kMaxLength)};
+    if (!has(Column::floor) || cells.is_empty(*(*this)[Column::floor]->only_column())) return out;
+    const std::size_t place = *(*this)[Column::floor]->only_column();
+    std::string name(cells.text(place));
+    if (!is_utf8(name)) cells.fail(place, "the floor is not UTF-8 text; save the file as UTF-8");
+    if (const std::optional<double> level = parse_double(name)) name = format_double(*level);
+    const auto at = std::ranges::find(floors_, name);
+    out.floor = static_cast<int>(at - floors_.begin());
+    if (at == floors_.end()) floors_.push_back(std::move(name));
+    return out;
+}
+
+void RowReader::tell_details(TrackFile& file) {
+    file.details = tracks_.take_details();
+    file.floors = std::move(floors_);
+    file.has_sizes = std::ranges::any_of(
+        file.details, [](const PointDetail& detail) { return detail.length > 0 && detail.width > 0; });
+    file.body_columns = body_columns;
+    file.heading_column = heading_column;
+    if (!guesses_angles) return;
+    constexpr double kFullTurn = 2 * std::numbers::pi * 1.001;
+    const auto is_small = [](const PointDetail& detail) { return !(std::abs(detail.heading) > kFullTurn); };
+    const bool in_radians = std::ranges::all_of(file.details, is_small);
+    for (PointDetail& detail : file.details) detail.heading *= in_radians ? 180 / std::numbers::pi : 1;
+    file.heading_column += in_radians ? ", in radians by its values" : ", in degrees by its values";
+}
+
 bool RowReader::is_left_out(const Cells& cells) {
     const auto is_set = [&](Column column) {
         const std::size_t place = *(*this)[column]->only_column();
@@ -123,13 +168,19 @@ bool RowReader::add(const Cells& cells) {
     if (is_left_out(cells)) return false;
     const std::string_view id = identifier(cells);
     const double time = when(cells);
-    const TrackPoint point{time, value(cells, Column::x, mobb::kMaxLength), value(cells, Column::y, mobb::kMaxLength),
-                           cells.line(), radius(cells)};
+    const TrackPoint point{time,
+                           value(cells, Column::x, mobb::kMaxLength),
+                           value(cells, Column::y, mobb::kMaxLength),
+                           cells.line(),
+                           0,
+                           radius(cells)};
     in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(time);
     // Tracks may lie across each other in any order, the rows of one motion may not.
     if (!has(Column::id) && has_times() && !tracks_.empty()) check_order(cells, time);
     last_ = time;
-    tracks_.add(id, point, label(cells));
+    std::optional<PointDetail> more;
+    if (has_details()) more = detail(cells);
+    tracks_.add(id, point, label(cells), more ? &*more : nullptr);
     return true;
 }
 
@@ -156,6 +207,7 @@ TrackFile RowReader::finish() {
         }
     }
     out.spent = tracks_.take_spent();
+    tell_details(out);
     if (lost_ > 0) {
         out.warnings.push_back({counted(lost_, "row is", "rows are") + " marked as lost or not active and left out"});
     }

@@ -21,7 +21,11 @@ class Cells {
 
     virtual double number(std::size_t column) const = 0;  ///< throws InputError if it holds none
     virtual std::string_view text(std::size_t column) const = 0;
-    virtual bool is_empty(std::size_t column) const = 0;      ///< holds nothing, "nan" or "?"
+    virtual bool is_empty(std::size_t column) const = 0;  ///< holds nothing, "nan" or "?"
+    /// Nothing of a cell that holds no number.
+    virtual std::optional<double> value(std::size_t column) const {
+        return is_empty(column) ? std::nullopt : std::optional(number(column));
+    }
     virtual int line() const = 0;                             ///< or row, from 1
     virtual std::string place(std::size_t column) const = 0;  ///< of the cell: "line 3, column 2 (y)"
 
@@ -63,6 +67,9 @@ class RowReader {
     std::vector<std::size_t> scopes{};  ///< columns that stand before the id: it is one's within a recording alone
     std::vector<std::size_t> axes{};    ///< columns of semi-axes: the radius is the largest of them and of r
     std::string order_hint{};           ///< ends the message that rows without ids are not in order
+    bool guesses_angles = false;        ///< headings are radians where all are small enough, else degrees
+    std::string body_columns{};         ///< see TrackFile
+    std::string heading_column{};       ///< likewise
 
   private:
     bool has(Column column) const { return (*this)[column].has_value(); }
@@ -74,6 +81,9 @@ class RowReader {
     double radius(const Cells& cells) const;
     std::string_view identifier(const Cells& cells);
     std::string_view label(const Cells& cells) const;
+    bool has_details() const;
+    PointDetail detail(const Cells& cells);
+    void tell_details(TrackFile& file);
     void check_order(const Cells& cells, double time) const;
 
     std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
@@ -83,6 +93,7 @@ class RowReader {
     std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
     std::string id_text_{};
     std::string scoped_id_{};
+    std::vector<std::string> floors_{};
     std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
     int first_empty_ = 0;               ///< line
 };

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <import/clip/road_users.h>
 #include <import/tracks/sanity.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kFastestPerson = 8;     // m/s: sprinters are faster, for seconds
+constexpr double kFastestPerson = 8;     // m/s
 constexpr double kFastestOfAll = 70;     // cars
 constexpr double kFastestMedian = 45;    // no recording has more
 constexpr double kSlowestMedian = 0.01;  // nor less
@@ -32,58 +33,6 @@ constexpr std::size_t kFewestSpeeds = 10;     // that prove anything
 constexpr std::size_t kStepsTogether = 10;    // of which a speed is taken: noise goes nowhere
 constexpr double kLeastShare = 0.5;           // of the time in which they move, for their being slow to be told
 constexpr double kLeastHeadway = 0.3;         // of who moves: the way that is left of the path
-
-/// By a part of the class's name in small letters; the first that fits.
-struct Mover {
-    std::string_view word;
-    double fastest;         ///< m/s
-    bool is_whole = false;  ///< the word stands alone, or with an s: a businessman is no bus
-};
-constexpr Mover kMovers[] = {
-    {"motor", kFastestOfAll},
-    {"ped", kFastestPerson},
-    {"person", kFastestPerson},
-    {"people", kFastestPerson},
-    {"human", kFastestPerson},
-    {"child", kFastestPerson},
-    {"adult", kFastestPerson},
-    {"walk", kFastestPerson},
-    {"skat", 20},
-    {"scoot", 20},
-    {"bik", 20},
-    {"cycl", 20},
-    {"robot", 20},
-    {"agv", 20, true},
-    {"drone", 40},
-    {"uav", 40, true},
-    {"car", kFastestOfAll, true},
-    {"bus", kFastestOfAll, true},
-    {"truck", kFastestOfAll},
-    {"van", kFastestOfAll, true},
-    {"taxi", kFastestOfAll},
-    {"tram", kFastestOfAll},
-    {"vehicle", kFastestOfAll},
-    {"trailer", kFastestOfAll},
-};
-
-/// In small letters.
-bool is_of(std::string_view label, const Mover& mover) {
-    const auto is_letter = [&](std::size_t at) { return at < label.size() && label[at] >= 'a' && label[at] <= 'z'; };
-    const std::string_view word = mover.word;
-    for (std::size_t at = label.find(word); at != std::string_view::npos; at = label.find(word, at + 1)) {
-        std::size_t end = at + word.size();
-        if (end < label.size() && label[end] == 's') ++end;
-        if (!mover.is_whole || ((at == 0 || !is_letter(at - 1)) && !is_letter(end))) return true;
-    }
-    return false;
-}
-
-/// Null for a class that none fits.
-const Mover* mover_of(std::string_view label) {
-    const std::string small = lower(label);
-    const auto* const at = std::ranges::find_if(kMovers, [&](const Mover& mover) { return is_of(small, mover); });
-    return at == std::end(kMovers) ? nullptr : at;
-}
 
 struct Velocity {
     double x = 0, y = 0;
@@ -115,12 +64,13 @@ std::string place_words(const TrackPoint& point) { return "(" + brief(point.x) +
 
 class Judge {
   public:
-    Judge(const TrackFile& file, const TrackScale& scale)
-        : file_(file), scale_(scale), longest_pause_(longest_pause(step_seconds())) {}
+    Judge(const TrackFile& file, const TrackScale& scale, const Storeys& storeys)
+        : file_(file), scale_(scale), storeys_(storeys), longest_pause_(longest_pause(step_seconds())) {}
 
     JudgedTracks judged() {
         if (file_.format == "mapf") {
-            for (const Track& track : file_.tracks) out_.parts.push_back({&track, track.id, track.points, kNoLimit});
+            for (const Track& track : file_.tracks) add(track, track.points, kNoLimit, 0);
+            tell();
             return std::move(out_);
         }
         judge_speeds();
@@ -130,7 +80,7 @@ class Judge {
             // Nobody is left: then the places are places.
             lost_.clear();
             jumps_ = pauses_ = off_ = {};
-            left_out_ = 0;
+            left_out_ = moves_ = 0;
             for (std::size_t i = 0; i < file_.tracks.size(); ++i) take_apart(file_.tracks[i], limits_[i]);
         }
         tell();
@@ -154,11 +104,14 @@ class Judge {
     /// Without a unit of metres nothing is too fast.
     bool has_metres() const { return !file_.in_pixels || scale_.is_said; }
 
-    /// Its class; else what ids are called ("Vehicle_ID"), where that is one.
+    /// Its class; else a vehicle where it is as long, or what ids are called ("Vehicle_ID"), where that is one.
     std::string_view label(const Track& track) const {
-        return !track.label.empty()        ? std::string_view(track.label)
-               : mover_of(file_.id_column) ? file_.id_column
-                                           : std::string_view();
+        if (!track.label.empty()) return track.label;
+        constexpr double kShortestCar = 2;  // metres
+        const int detail = track.points.front().detail;
+        if (detail > 0 && file_.details[static_cast<std::size_t>(detail) - 1].length * scale_.metres > kShortestCar)
+            return "vehicle";
+        return road_user(file_.id_column) ? std::string_view(file_.id_column) : std::string_view();
     }
 
     // ---- speeds of all
@@ -358,13 +311,29 @@ class Judge {
         return !is_pause(a, b) && speed(a, b) <= fastest;
     }
 
+    /// Adds parts of a track that has so many, one a floor; gives how many it has then.
+    std::size_t add(const Track& track, std::span<const TrackPoint> points, double limit, std::size_t number) {
+        for (std::size_t from = 0, to = 0; from < points.size(); from = to) {
+            int floor = storeys_.of(points[from]);
+            for (to = from + 1; to < points.size(); ++to) {
+                const int next = storeys_.of(points[to]);
+                if (floor >= 0 && next >= 0 && next != floor) break;
+                floor = std::max(floor, next);
+            }
+            moves_ += from > 0;
+            // Between floors it is on both.
+            const std::size_t first = from > 0 ? from - 1 : 0, last = std::min(to + 1, points.size());
+            out_.parts.push_back({&track, ++number == 1 ? track.id : part_id(track.id, number),
+                                  points.subspan(first, last - first), limit,
+                                  floor < 0 ? "" : storeys_.names[static_cast<std::size_t>(floor)]});
+        }
+        return number;
+    }
+
     void take_apart(const Track& track, double limit) {
         const std::span<const TrackPoint> points = track.points;
         const auto broken = broken_.find(&track);
         const std::vector<Run> runs = broken == broken_.end() ? std::vector<Run>{{0, points.size()}} : broken->second;
-        const auto add = [&](std::span<const TrackPoint> part, std::size_t number) {
-            out_.parts.push_back({&track, number == 1 ? track.id : part_id(track.id, number), part, limit});
-        };
         const auto count_break = [&](const TrackPoint& a, const TrackPoint& b) {
             if (is_pause(a, b)) {
                 pauses_.take(seconds(a, b) / longest_pause_, track, a, b);
@@ -376,7 +345,7 @@ class Judge {
             for (std::size_t i = 1; i < runs.size(); ++i) count_break(points[runs[i].first - 1], points[runs[i].first]);
         }
         if (scale_.keeps_jumps || (runs.size() == 1 && !(points.size() > 1 && is_lost(points, runs.front())))) {
-            add(points, 1);
+            add(track, points, limit, 0);
             return;
         }
         std::vector<Run> kept;
@@ -402,13 +371,13 @@ class Judge {
                    goes_on(points[kept[end - 1].last - 1], points[kept[end].first], limit))
                 ++end;
             if (end == i + 1) {
-                add(points.subspan(kept[i].first, kept[i].last - kept[i].first), ++number);
+                number = add(track, points.subspan(kept[i].first, kept[i].last - kept[i].first), limit, number);
             } else {
                 std::vector<TrackPoint>& made = out_.made.emplace_back();
                 for (std::size_t k = i; k < end; ++k)
                     made.insert(made.end(), points.begin() + std::ptrdiff_t(kept[k].first),
                                 points.begin() + std::ptrdiff_t(kept[k].last));
-                add(made, ++number);
+                number = add(track, made, limit, number);
             }
             i = end;
         }
@@ -466,10 +435,14 @@ class Judge {
         }
         std::ranges::stable_sort(found, std::greater<>{}, &std::pair<double, ImportWarning>::first);
         for (auto& [by, finding] : found) out_.findings.push_back(std::move(finding));
+        if (moves_ > 0)
+            out_.findings.push_back(
+                {counted(moves_, "change of floors is", "changes of floors are") + " seen: tracks are split there"});
     }
 
     const TrackFile& file_;
     TrackScale scale_;
+    const Storeys& storeys_;
     double longest_pause_;
     double median_ = 0;           ///< m/s of who moves
     std::vector<double> limits_;  ///< by track, m/s
@@ -478,21 +451,22 @@ class Judge {
     std::vector<double> speeds_;  ///< of a track
     Worst jumps_, pauses_, off_;
     std::size_t left_out_ = 0;  ///< rows
+    std::size_t moves_ = 0;     ///< between floors
     std::set<std::string> ids_;
     JudgedTracks out_;
 };
 
 }  // namespace
 
-bool is_known_class(std::string_view label) { return mover_of(label) != nullptr; }
-
 double fastest_of(std::string_view label, double median) {
-    if (const Mover* mover = mover_of(label)) return mover->fastest;
+    if (const RoadUser* user = road_user(label)) return user->fastest;
     return median > kOfPeople ? kFastestOfAll : kFastestPerson;
 }
 
 double longest_pause(double step) { return std::max(kLongestPause, kMostStepsOfPause * step); }
 
-JudgedTracks judge(const TrackFile& file, const TrackScale& scale) { return Judge(file, scale).judged(); }
+JudgedTracks judge(const TrackFile& file, const TrackScale& scale, const Storeys& storeys) {
+    return Judge(file, scale, storeys).judged();
+}
 
 }  // namespace mobbscope

@@ -2,6 +2,7 @@
 /// one's.
 #pragma once
 
+#include <import/tracks/storeys.h>
 #include <import/tracks/tracks.h>
 
 #include <deque>
@@ -11,9 +12,6 @@
 #include <vector>
 
 namespace mobbscope {
-
-/// Whether it is known how fast a class is.
-bool is_known_class(std::string_view label);
 
 /// Metres a second that nobody of a class exceeds: 8 of people. `median`: of who has no class, what they do when they
 /// move.
@@ -37,6 +35,7 @@ struct TrackPart {
     std::string id{};                      ///< "17"; of further parts "17#2"
     std::span<const TrackPoint> points{};  ///< at least one
     double fastest = 0;                    ///< metres a second: what is faster is no motion of its class
+    std::string floor{};                   ///< see ImportedClip
 
     int first_line() const { return points.front().line; }
 };
@@ -49,8 +48,9 @@ struct JudgedTracks {
     std::deque<std::vector<TrackPoint>> made{};  ///< points of parts that lack some of their tracks'
 };
 
-/// Throws std::invalid_argument where who moves has a median speed over 45 or under 0.01 m/s, unless the scale is said
+/// Who changes floors is two, both there from the last point on the one to the first on the other. Throws
+/// std::invalid_argument where who moves has a median speed over 45 or under 0.01 m/s, unless the scale is said
 /// or few rows tell it.
-JudgedTracks judge(const TrackFile& file, const TrackScale& scale);
+JudgedTracks judge(const TrackFile& file, const TrackScale& scale, const Storeys& storeys);
 
 }  // namespace mobbscope

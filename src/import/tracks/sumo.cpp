@@ -1,5 +1,5 @@
+#include <import/clip/road_users.h>
 #include <import/clip/sampling.h>
-#include <import/tracks/sanity.h>
 #include <import/tracks/sumo.h>
 #include <import/tracks/xml_text.h>
 #include <mobb/clip.h>
@@ -37,7 +37,7 @@ class SumoTracks {
             at->second == kind ? std::string(id) : std::string(kKinds[kind]) + ' ' + std::string(id);
         in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(point.frame);
         // A type of which nothing is known says less than the kind.
-        const bool is_known = !type.starts_with("DEFAULT_") && is_known_class(type);
+        const bool is_known = !type.starts_with("DEFAULT_") && road_user(type);
         tracks_.add(name, point, is_known ? type : kKinds[kind]);
     }
 

@@ -147,6 +147,9 @@ class TextRows final : public Cells {
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         TrackFile out = finished();
         out.format = "csv";
+        if (rows_[Column::label]) out.class_size = ClassSize::body;
+        if (const auto x = rows_[Column::x]->columns(); x.size() == 1)
+            out.place_is_front = plain_name(names_[x.front()]).word == "localx";  // of NGSIM
         if (const std::optional<ColumnFormula>& id = rows_[Column::id]) out.id_column = names_[*id->only_column()];
         if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
             out.time_column = names_[time.front()];
@@ -194,17 +197,9 @@ class TextRows final : public Cells {
     // ---- cells
 
     double number(std::size_t column) const override {
-        const auto& [field, known] = fields_[column];
-        if (!std::isnan(known)) return known;
+        if (const std::optional<double> read = value(column)) return *read;
+        const std::string_view field = fields_[column].text;
         if (field.empty()) fail(column, "the field is empty; give a number");
-        if (const std::optional<double> read = parse_double(field)) return *read;
-        const std::size_t comma = field.find(',');
-        if (separator_ != ',' && comma != std::string_view::npos && field.find('.') == std::string_view::npos) {
-            std::string with_point(field);
-            with_point[comma] = '.';
-            decimal_commas_ = true;
-            if (const std::optional<double> read = parse_double(with_point)) return *read;
-        }
         const std::optional<ColumnFormula>& time = rows_[Column::t];
         const bool is_time = time && std::ranges::count(time->columns(), column) > 0;
         if (const std::optional<double> clock = is_time ? seconds_of_clock(field) : std::nullopt) {
@@ -215,6 +210,19 @@ class TextRows final : public Cells {
         }
         fail(column, in_quotes(field) + " is not a finite number; write it like 0.25" +
                          (is_time ? ", or a time like 2021-06-01T12:00:00" : ""));
+    }
+    std::optional<double> value(std::size_t column) const override {
+        const auto& [field, known] = fields_[column];
+        if (!std::isnan(known)) return known;
+        if (const std::optional<double> read = parse_double(field)) return read;
+        const std::size_t comma = field.find(',');
+        if (separator_ == ',' || comma == std::string_view::npos || field.find('.') != std::string_view::npos)
+            return std::nullopt;
+        std::string with_point(field);
+        with_point[comma] = '.';
+        const std::optional<double> read = parse_double(with_point);
+        decimal_commas_ = decimal_commas_ || read;
+        return read;
     }
     std::string_view text(std::size_t column) const override { return fields_[column].text; }
     bool is_empty(std::size_t column) const override {
@@ -419,12 +427,13 @@ class TextRows final : public Cells {
         } catch (const std::invalid_argument& error) {
             fail_in_header(error.what());
         }
-        for (const Column column : {Column::id, Column::label, Column::lost, Column::active}) {
+        for (const Column column : {Column::id, Column::label, Column::lost, Column::active, Column::floor}) {
             if (rows_[column] && !rows_[column]->only_column())
                 fail_in_header("columns: " + std::string(name(column)) + " is one column, and nothing to work out");
         }
         for (const Column column : kColumns) take_by_name(column);
         name_radius_column();
+        settle_bodies();
         for (const Column needed : {Column::x, Column::y}) {
             if (rows_[needed]) continue;
             fail_in_header("the header names no column " + std::string(name(needed)) + "; it needs t,x,y,r or x,y,r" +
@@ -442,6 +451,28 @@ class TextRows final : public Cells {
         if (rows_[Column::t]) rows_[Column::frame].reset();
         date_ = rows_[Column::t] ? column_with("date") : std::nullopt;
         find_scopes();
+    }
+
+    /// What makes no body, and keeps nobody apart, is a column like any other.
+    void settle_bodies() {
+        const auto column_words = [this](Column column) {
+            const std::vector<std::size_t> from = rows_[column]->columns();
+            return from.empty() ? "the option columns" : in_quotes(names_[from.front()]);
+        };
+        const bool has_sizes = rows_[Column::length] && rows_[Column::width] && !rows_[Column::r];
+        if (has_sizes) {
+            rows_.body_columns = "the columns " + column_words(Column::length) + " and " + column_words(Column::width);
+        }
+        const auto leave = [this](Column column, bool is_left) {
+            if (is_left) rows_[column].reset();
+        };
+        leave(Column::length, !has_sizes);
+        leave(Column::width, !has_sizes);
+        leave(Column::heading, !has_sizes && !rows_[Column::label]);
+        if (rows_[Column::heading]) rows_.heading_column = "the column " + column_words(Column::heading);
+        rows_.guesses_angles = rows_.guesses_angles && rows_[Column::heading];
+        leave(Column::floor, !rows_[Column::id]);
+        leave(Column::z, !rows_[Column::id] || rows_[Column::floor]);
     }
 
     void find_scopes() {
@@ -496,7 +527,10 @@ class TextRows final : public Cells {
             if (header_line_ == 0) return;
             warnings_.push_back({"the columns " + quoted_list({names.begin(), names.end()}) +
                                      " are taken for boxes: their centres are " + centre(0) + ", " + centre(1) +
-                                     "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong",
+                                     "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong" +
+                                     (box.has_middles ? ""
+                                                      : ", (length=" + names[2] + ",width=" + names[3] +
+                                                            ") for bodies that are as large along their way"),
                                  "columns"});
             return;
         }
@@ -527,8 +561,9 @@ class TextRows final : public Cells {
             known.push_back(*here);
         }
         if (found.empty() || (column == Column::frame && rows_[Column::t])) return;
-        const bool may_be_several = column == Column::label || column == Column::lost || column == Column::active;
-        if (found.size() > 1 && !may_be_several) {
+        // Of others the first counts.
+        const bool must_be_one = column <= Column::r;
+        if (found.size() > 1 && must_be_one) {
             const std::string& first = names_[found[0]];
             const std::string& second = names_[found[1]];
             if (first == second) fail_at_name(found[1], "the column stands twice; remove one");
@@ -543,9 +578,14 @@ class TextRows final : public Cells {
             is_weak_time_ = is.is_weak;
             return;
         }
+        if (column == Column::heading) {
+            rows_[column].emplace(found.front(), is.scale);
+            rows_.guesses_angles = !is.says_unit;
+            return;
+        }
         // All lengths are in the unit of the first column that says one.
         double factor = 1;
-        if (is.says_unit && column == Column::r && unit_why_.empty()) {
+        if (is.says_unit && column != Column::x && column != Column::y && unit_why_.empty()) {
             // Places without a unit are in metres all the same.
             factor = options_.unit ? 1 : is.scale;
         } else if (is.says_unit) {
@@ -555,7 +595,7 @@ class TextRows final : public Cells {
             }
             factor = is.scale / unit_;
         }
-        rows_[column].emplace(found.front(), factor);
+        rows_[column].emplace(found.front(), factor * is.share);
     }
 
     [[noreturn]] void fail_at_name(std::size_t column, const std::string& message) const {
@@ -753,7 +793,7 @@ class TextRows final : public Cells {
         for (const Track& track : as_trajnet) {
             const double frame = *parse_double(track.id);
             for (const TrackPoint& point : track.points)
-                points.push_back({frame, point.x, point.y, point.line, point.frame});
+                points.push_back({frame, point.x, point.y, point.line, point.detail, point.frame});
         }
         std::ranges::sort(points, {}, &TrackPoint::line);
         TrackCollector out(file_);
@@ -780,6 +820,7 @@ class TextRows final : public Cells {
     void tell_unit(TrackFile& out) {
         if (format_ == &kSdd) {
             out.in_pixels = true;
+            out.class_size = ClassSize::disk;
             out.unit_assumption =
                 "lengths are in pixels of the image, y down: one pixel counts as one metre; give "
                 "unit (metres a pixel)";

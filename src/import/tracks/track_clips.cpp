@@ -1,13 +1,15 @@
 #include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
 #include <import/tracks/sanity.h>
+#include <import/tracks/storeys.h>
+#include <import/tracks/track_bodies.h>
 #include <import/tracks/track_steps.h>
 #include <import/tracks/tracks.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -21,28 +23,6 @@ namespace {
 // A damaged frame number leaves a gap of any length: what fills gaps may be so many times what the file holds.
 constexpr std::size_t kMaxFill = 100;
 constexpr std::size_t kAlwaysFilled = 10'000;
-/// The radius where no option says one.
-double default_radius(const Track& track) { return class_radius(track.label).value_or(kDefaultTrackRadius); }
-
-/// What default_radius takes: by class where the file has classes.
-std::string assumed_radius(const TrackFile& file) {
-    std::map<std::string, int> tracks;  // by class
-    for (const Track& track : file.tracks) ++tracks[track.label];
-    std::string taken = brief(kDefaultTrackRadius) + " m";
-    if (tracks.size() > 1 || !tracks.contains("")) {
-        taken = "by class";
-        const char* separator = " ";
-        for (const auto& [label, count] : tracks) {
-            const std::optional<double> known = class_radius(label);
-            taken += separator + (label.empty() ? "none" : in_quotes(label)) + ' ' +
-                     brief(known.value_or(kDefaultTrackRadius)) + " m (" + counted(count, "track", "tracks") +
-                     (known || label.empty() ? ")" : ", a class without a usual radius)");
-            separator = ", ";
-        }
-    }
-    return "the file has no radii: " + taken + " are taken; give radius if that is wrong";
-}
-
 /// Of a file of radii, which of its keys the tracks lack; empty: none, or another kind of radius.
 std::string unused_radii(const TrackFile& file, const Radius& radius) {
     const auto* const table = std::get_if<std::shared_ptr<const RadiusTable>>(&radius);
@@ -116,7 +96,7 @@ void check_columns(const TrackFile& table, const std::string& file, const Import
     const std::string header = at_line(table.header_line);
     if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
     // People have a usual radius.
-    if (!table.has_radius && !options.radius && table.alone)
+    if (!table.has_radius && !table.has_sizes && !options.radius && table.alone)
         throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
     if (!table.rate && !options.dt && !options.fps) {
         throw InputError(file, header,
@@ -174,7 +154,9 @@ class TrackClipMaker {
         if (file.timed) check_file_times(usual_step(), std::max(std::abs(clock_.t0()), std::abs(clock_.end())));
         if (options.unit && *options.unit != "auto") common_.unit = *metres_per_unit(*options.unit);
         const bool is_said = options.unit || (options.dt && !file.timed);
-        judged_ = judge(file, {common_.unit, frame_time(), clock_.usual_step(), is_said, options.keep_jumps == true});
+        const Storeys storeys = storeys_of(file, common_.unit);
+        judged_ = judge(file, {common_.unit, frame_time(), clock_.usual_step(), is_said, options.keep_jumps == true},
+                        storeys);
         common_.warnings.insert(common_.warnings.end(), judged_.findings.begin(), judged_.findings.end());
         common_.doubt = judged_.doubt;
         if (!options.dt && !file.rate_assumption.empty()) common_.warnings.push_back({file.rate_assumption, "dt"});
@@ -188,8 +170,9 @@ class TrackClipMaker {
         }
         const std::string remark = options_.radius   ? unused_radii(file, *options_.radius)
                                    : file.has_radius ? ""
-                                                     : assumed_radius(file);
+                                                     : body_remark(file, common_.unit);
         if (!remark.empty()) common_.warnings.push_back({remark, "radius"});
+        if (!storeys.remark.empty()) common_.warnings.push_back({storeys.remark});
         if (options.trim && options.trim->second > clock_.duration() + usual_step()) {
             common_.warnings.push_back({"trim ends at " + brief(options.trim->second) + " s, but the file lasts " +
                                             brief(clock_.duration()) + " s; all to the end is taken",
@@ -244,22 +227,43 @@ class TrackClipMaker {
             throw std::invalid_argument("its times make more than " + std::to_string(most) +
                                         " samples; check them, or lower fps");
         }
-        const double radius = options_.radius    ? metres_of(*options_.radius, track.id, track.label)
-                              : file_.has_radius ? 0
-                                                 : default_radius(track);
+        TrackBody body;
+        if (options_.radius) {
+            body.r = metres_of(*options_.radius, track.id, track.label);
+        } else if (!file_.has_radius) {
+            body = body_of(file_, track, common_.unit);
+        }
         // A motion begins where it is trimmed; tracks keep the moments of their samples.
         const bool is_cut = file_.alone && options_.trim;
         const double begin = is_cut ? options_.trim->first : first * dt;
-        std::vector<mobb::Disk> samples = resampled || is_cut
-                                              ? sampled(points, {begin, dt, std::size_t(last - first) + 1})
-                                              : filled(points, grid.step, first, last);
+        const auto samples_of = [&](std::span<const TrackPoint> from) {
+            return resampled || is_cut ? sampled(from, {begin, dt, std::size_t(last - first) + 1})
+                                       : filled(from, grid.step, first, last);
+        };
+        std::vector<mobb::Disk> samples;
+        std::vector<double> headings;
+        if (!body.disks.empty()) headings = headings_at(file_, points);
+        if (headings.empty()) {
+            samples = samples_of(points);
+        } else {
+            // Radii of such a body are all the same: headings are sampled in their place.
+            std::vector<TrackPoint> turned(points.begin(), points.end());
+            for (std::size_t i = 0; i < turned.size(); ++i) turned[i].r = headings[i];
+            samples = samples_of(turned);
+            headings.clear();
+            for (const mobb::Disk& disk : samples) headings.push_back(disk.r);
+        }
         for (mobb::Disk& disk : samples) {
-            disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : radius};
+            disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : body.r};
         }
         count_ += samples.size();
-        put_at_origin(samples, options_.origin.value_or(Origin::keep));
+        const mobb::Rotation turn = put_at_origin(samples, options_.origin.value_or(Origin::keep));
+        for (double& heading : headings) heading += std::atan2(turn.s, turn.c) * (180 / std::numbers::pi);
 
         ImportedClip out;
+        out.body = std::move(body.disks);
+        out.headings = std::move(headings);
+        out.floor = part.floor;
         out.id = part.id;
         if (!file_.alone)
             out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
@@ -445,13 +449,13 @@ ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& fi
         for (const TrackPart& part : maker.judged().parts) ids.choices.push_back({part.id, part.id});
     }
     const bool by_class = std::ranges::any_of(tracks.tracks, [](const Track& of) { return !of.label.empty(); });
-    const bool has_usual = !tracks.has_radius && !tracks.alone;
-    OptionOffer& radius =
-        out.options.emplace_back(OptionOffer{"radius", has_usual && !by_class ? format_double(kDefaultTrackRadius) : "",
-                                             has_usual           ? assumed_radius(tracks)
-                                             : tracks.has_radius ? "the column r"
-                                                                 : "the file has no column r",
-                                             !tracks.has_radius && tracks.alone});
+    const bool has_usual = !tracks.has_radius && (tracks.has_sizes || !tracks.alone);
+    OptionOffer& radius = out.options.emplace_back(
+        OptionOffer{"radius", has_usual && !by_class && !tracks.has_sizes ? format_double(kDefaultTrackRadius) : "",
+                    has_usual           ? body_remark(tracks, tracks.unit)
+                    : tracks.has_radius ? "the column r"
+                                        : "the file has no column r",
+                    !tracks.has_radius && !has_usual});
     for (const std::string& name : tracks.others) radius.choices.push_back({name, "the column " + name});
     if (!tracks.has_times || (tracks.timed && alone)) {
         out.options.push_back(

@@ -5,7 +5,7 @@
 
 namespace mobbscope {
 
-void TrackCollector::add(std::string_view id, const TrackPoint& point, std::string_view label) {
+void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view label, const PointDetail* detail) {
     // Many files have a track's points one after another.
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
@@ -16,6 +16,11 @@ void TrackCollector::add(std::string_view id, const TrackPoint& point, std::stri
         last_ = at->second;
     }
     used_ += kBytesOfPoint;
+    if (detail) {
+        used_ += sizeof(PointDetail);
+        details_.push_back(*detail);
+        point.detail = static_cast<int>(details_.size());
+    }
     spent_.cover(used_, "its rows", file_);
     tracks_[last_].points.push_back(point);
 }

@@ -9,8 +9,10 @@
 #include <import/clip/imported_clip.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,9 +33,23 @@ struct TrackPoint {
     double frame = 0;  ///< or seconds, see TrackFile::timed
     double x = 0;
     double y = 0;
-    int line = 0;  ///< in the file, from 1
-    double r = 0;  ///< see TrackFile::has_radius
+    int line = 0;    ///< in the file, from 1
+    int detail = 0;  ///< of TrackFile::details, from 1; 0: none
+    double r = 0;    ///< see TrackFile::has_radius
 };
+
+/// What rows may say beside the place.
+struct PointDetail {
+    double length = 0, width = 0;  ///< of a body, in file units; 0: it is not told
+    double heading = kUntold;      ///< degrees, counter-clockwise from x
+    double z = kUntold;            ///< file units
+    int floor = -1;                ///< of TrackFile::floors; -1: it is not told
+
+    static constexpr double kUntold = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What the class of a track tells of its size.
+enum class ClassSize : std::uint8_t { none, disk, body };
 
 /// One agent's points; frames increase.
 struct Track {
@@ -62,6 +78,13 @@ struct TrackFile {
     std::string rate_assumption{};
 
     bool has_radius = false;  ///< the points have radii, in file units
+    std::vector<PointDetail> details{};
+    bool has_sizes = false;        ///< some points have a length and a width
+    std::string body_columns{};    ///< who says so, for a message: "the columns 'length' and 'width'"
+    std::string heading_column{};  ///< empty: there are no headings
+    bool place_is_front = false;   ///< x and y are in the middle of a body's front, else of the body
+    ClassSize class_size = ClassSize::none;
+    std::vector<std::string> floors{};
 
     double unit = 1;                         ///< metres per file unit
     bool in_pixels = false;                  ///< of an image, which tell no metres
@@ -99,9 +122,9 @@ class TrackCollector {
     /// `file` stands for the file in messages, and must outlive this.
     explicit TrackCollector(const std::string& file) : file_(file) {}
 
-    /// `label`: the track's class; of several the first one stays. Throws InputError if all of them take more than the
-    /// budget.
-    void add(std::string_view id, const TrackPoint& point, std::string_view label = {});
+    /// `label`: the track's class; of several the first one stays. `detail`: null: there is none. Throws InputError if
+    /// all of them take more than the budget.
+    void add(std::string_view id, TrackPoint point, std::string_view label = {}, const PointDetail* detail = nullptr);
     bool empty() const { return tracks_.empty(); }
 
     /// The tracks, each in order of its frames; `once`: without rows that say the same again. Throws InputError, naming
@@ -114,6 +137,7 @@ class TrackCollector {
     TrackFile take_timed(bool in_milliseconds);
     /// As they came.
     std::vector<Track> take() { return std::move(tracks_); }
+    std::vector<PointDetail> take_details() { return std::move(details_); }
     /// What they take of the budget.
     Spent take_spent() { return std::move(spent_); }
 
@@ -122,6 +146,7 @@ class TrackCollector {
 
     const std::string& file_;
     std::vector<Track> tracks_;
+    std::vector<PointDetail> details_;
     Spent spent_;
     std::size_t used_ = 0;  ///< bytes
     std::size_t repeated_ = 0;

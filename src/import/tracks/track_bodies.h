@@ -1,0 +1,28 @@
+/// What room a track takes: disks of the sizes that the file or its class says.
+#pragma once
+
+#include <import/tracks/tracks.h>
+#include <mobb/body.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mobbscope {
+
+struct TrackBody {
+    double r = kDefaultTrackRadius;       ///< metres: around the track's points
+    std::vector<mobb::BodyDisk> disks{};  ///< empty: it is that disk
+};
+
+/// The body of a track of a file without radii: of its lengths and widths the medians. `metres`: per file unit.
+TrackBody body_of(const TrackFile& file, const Track& track, double metres);
+
+/// What body_of takes, for a warning.
+std::string body_remark(const TrackFile& file, double metres);
+
+/// Degrees at each point, without jumps from a whole turn to none; of points without one that of the point before, else
+/// of the next. Empty: no point has one.
+std::vector<double> headings_at(const TrackFile& file, std::span<const TrackPoint> points);
+
+}  // namespace mobbscope
