@@ -124,7 +124,10 @@ void warn_of_judged_tracks(const Scene& scene, const std::string& text, const st
     const auto read_with = [&](const ImportOptions& options) -> std::optional<std::size_t> {
         try {
             if (!tracks) tracks = parse_csv(text, out.string());
-            return track_clips(*tracks, out, options).size();
+            std::size_t clips = 0;
+            give_track_clips(
+                *tracks, out, options, [&](ImportedClip&&) { ++clips; }, false);
+            return clips;
         } catch (const InputError&) {
             return std::nullopt;
         }

@@ -33,20 +33,33 @@ namespace {
 MotionFile read_bvh(std::string_view text, const std::string& file) { return bvh_motion(parse_bvh(text, file)); }
 TableFile read_table(std::string text, const std::string& file) { return {std::move(text), file}; }
 
-std::vector<ImportedClip> table_clips(const TableFile& table, const std::filesystem::path& file,
-                                      const ImportOptions& options) {
-    return track_clips(*table.table(options), file, options);
+/// ParsedFile::each and ParsedFile::offer of what was read.
+void give(const MotionFile& motion, const std::filesystem::path& file, const ImportOptions& options,
+          const ClipSink& sink, bool) {
+    for (ImportedClip& clip : motion_clips(motion, file, options)) sink(std::move(clip));
 }
-
-ImportOffer table_offer(const TableFile& table, const std::filesystem::path& file, const ImportOptions& options) {
+void give(TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options, const ClipSink& sink,
+          bool last) {
+    give_track_clips(tracks, file, options, sink, last);
+}
+void give(TableFile& table, const std::filesystem::path& file, const ImportOptions& options, const ClipSink& sink,
+          bool last) {
+    give_track_clips(*table.table(options, last), file, options, sink, last);
+}
+ImportOffer offer_of(const MotionFile& motion, const std::filesystem::path& file, const ImportOptions& options) {
+    return motion_offer(motion, file, options);
+}
+ImportOffer offer_of(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options) {
+    return track_offer(tracks, file, options);
+}
+ImportOffer offer_of(const TableFile& table, const std::filesystem::path& file, const ImportOptions& options) {
     return track_offer(*table.table(options), file, options);
 }
 
-/// What `read` makes of a file, and the clips and the offer of that.
-template <auto read, auto to_clips, auto to_offer>
+template <auto read>
 ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
     using Parsed = decltype(read(std::move(input.bytes), file.string()));
-    const auto parsed = std::make_shared<const Parsed>(read(std::move(input.bytes), file.string()));
+    const auto parsed = std::make_shared<Parsed>(read(std::move(input.bytes), file.string()));
     // A table keeps its text.
     const auto spent =
         std::make_shared<const Spent>(std::is_same_v<Parsed, TableFile> ? std::move(input.spent) : Spent());
@@ -56,21 +69,21 @@ ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
             throw InputError(file.string(), "",
                              "columns are for tables with a header, which this is not; leave it out");
     };
-    return {[=](const ImportOptions& options) {
+    return {[=](const ImportOptions& options, const ClipSink& sink, bool last) {
                 checked(options);
                 static_cast<void>(spent);
-                std::vector<ImportedClip> clips = to_clips(*parsed, file, options);
-                for (ImportedClip& clip : clips) {
+                const auto judged = [&](ImportedClip&& clip) {
                     warn_of_long_held_step(*clip.clip, clip.facts.warnings);
                     at_place(file.string(), clip.id.empty() ? "" : "track " + in_quotes(clip.id),
                              [&] { mobb::checked({.start = clip.start}, clip.clip->most_start()); });
                     warn_of_coarse_times(*clip.clip, clip.start, clip.facts.warnings);
-                }
-                return clips;
+                    sink(std::move(clip));
+                };
+                give(*parsed, file, options, judged, last);
             },
             [=](const ImportOptions& options) {
                 checked(options);
-                return to_offer(*parsed, file, options);
+                return offer_of(*parsed, file, options);
             }};
 }
 
@@ -78,32 +91,30 @@ constexpr std::size_t kHead = std::size_t{1} << 16;  // bytes
 
 bool looks_like_bvh(std::string_view text) { return text.substr(0, text.find_first_of(" \t\r\n")) == "HIERARCHY"; }
 
-constexpr FileReader kBvh{"bvh", parse_once<read_bvh, motion_clips, motion_offer>, Contents::skeletons, looks_like_bvh};
-constexpr FileReader kGltf{"gltf", parse_once<parse_gltf, motion_clips, motion_offer>, Contents::skeletons,
-                           looks_like_gltf};
-constexpr FileReader kFbx{"fbx", parse_once<parse_fbx, motion_clips, motion_offer>, Contents::skeletons,
-                          looks_like_fbx};
+constexpr FileReader kBvh{"bvh", parse_once<read_bvh>, Contents::skeletons, looks_like_bvh};
+constexpr FileReader kGltf{"gltf", parse_once<parse_gltf>, Contents::skeletons, looks_like_gltf};
+constexpr FileReader kFbx{"fbx", parse_once<parse_fbx>, Contents::skeletons, looks_like_fbx};
 constexpr FileReader kJupedsim{"jupedsim",
-                               parse_once<parse_jupedsim, track_clips, track_offer>,
+                               parse_once<parse_jupedsim>,
                                Contents::trajectories,
                                is_sqlite,
                                {"JuPedSim (`.sqlite`)", "tables `trajectory_data`, `metadata` (versions 1 to 3)",
                                 "metres, `fps` of the metadata"}};
 constexpr FileReader kTrajnetpp{
     "trajnetpp",
-    parse_once<parse_trajnetpp, track_clips, track_offer>,
+    parse_once<parse_trajnetpp>,
     Contents::trajectories,
     looks_like_trajnetpp,
     {"TrajNet++ (`.ndjson`)", "`{\"scene\": {\"fps\"}}`, `{\"track\": {\"f\", \"p\", \"x\", \"y\"}}`",
      "metres, points a second as the scenes' `fps`"}};
 constexpr FileReader kMapfPlan{"mapf-plan",
-                               parse_once<parse_mapf_plan, track_clips, track_offer>,
+                               parse_once<parse_mapf_plan>,
                                Contents::trajectories,
                                looks_like_mapf_plan,
                                {"path-finding plans (`.yaml`)", "`schedule:`, a list of t, x, y for each agent",
                                 "one cell a metre, one step a second"}};
 constexpr FileReader kTextPlan{"mapf-text-plan",
-                               parse_once<parse_mapf_text_plan, track_clips, track_offer>,
+                               parse_once<parse_mapf_text_plan>,
                                Contents::trajectories,
                                looks_like_mapf_text_plan,
                                {"plans of LaCAM, PIBT; of EECBS, CBSH2-RTC, MAPF-LNS2 (`.txt`)",
@@ -111,7 +122,7 @@ constexpr FileReader kTextPlan{"mapf-text-plan",
                                 "`Agent 0: (row,column)->(row,column)->`",
                                 "the same; of a line an agent x is the column, y the row (a warning says so)"}};
 constexpr FileReader kRobotRunners{"robot-runners",
-                                   parse_once<parse_robot_runners, track_clips, track_offer>,
+                                   parse_once<parse_robot_runners>,
                                    Contents::trajectories,
                                    looks_like_robot_runners,
                                    {"plans of Robot Runners (`.json`)",
@@ -120,7 +131,7 @@ constexpr FileReader kRobotRunners{"robot-runners",
                                     "one cell a metre, one step a second; x is the column, y the row"}};
 constexpr FileReader kTrackerPlan{
     "mapf-tracker",
-    parse_once<parse_mapf_tracker, track_clips, track_offer>,
+    parse_once<parse_mapf_tracker>,
     Contents::trajectories,
     looks_like_mapf_tracker,
     {"plans of the MAPF tracker (`.csv`)",
@@ -128,21 +139,21 @@ constexpr FileReader kTrackerPlan{
      "scenario with their starts lies beside it, `MAP-TYPE-ID.scen`",
      "the same"}};
 constexpr FileReader kCcbsPlan{"ccbs",
-                               parse_once<parse_ccbs_plan, track_clips, track_offer>,
+                               parse_once<parse_ccbs_plan>,
                                Contents::trajectories,
                                looks_like_ccbs_plan,
                                {"logs of Continuous-CBS (`.xml`)",
                                 "sections of each agent's path, with their durations", "the same; time is continuous"}};
 constexpr FileReader kSumo{
     "sumo",
-    parse_once<parse_sumo, track_clips, track_offer>,
+    parse_once<parse_sumo>,
     Contents::trajectories,
     looks_like_sumo,
     {"SUMO's floating car data (`.xml`, `.csv`)",
      "vehicles, persons and containers of each timestep; who rides in a vehicle is left out", "metres"}};
 constexpr FileReader kLog{
     "log",
-    parse_once<parse_log, track_clips, track_offer>,
+    parse_once<parse_log>,
     Contents::trajectories,
     looks_like_log,
     {"robots' poses: TUM, KITTI (`.txt`), EuRoC, exports of ROS bags (`.csv`); VISSIM, Viswalk (`.fzp`, `.pp`)",
@@ -150,13 +161,13 @@ constexpr FileReader kLog{
      "`$PEDESTRIAN:` with SIMSEC, NO and CoordFront, or CoordCentX and CoordCentY",
      "metres; without ids one robot; of KITTI 10 poses a second"}};
 constexpr FileReader kTable{"csv",
-                            parse_once<read_table, table_clips, table_offer>,
+                            parse_once<read_table>,
                             Contents::table,
                             looks_like_table,
                             {"PedPy, inD, highD, NGSIM and others (`.csv`)",
                              "[a table with ids](scenes_and_formats.md#csv)", "metres, or as names of columns say"}};
-constexpr FileReader kTextTracks{"text-tracks", parse_once<parse_text_tracks, track_clips, track_offer>,
-                                 Contents::trajectories, looks_like_text_tracks};
+constexpr FileReader kTextTracks{"text-tracks", parse_once<parse_text_tracks>, Contents::trajectories,
+                                 looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
 constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,      &kFbx,      &kGltf,        &kTrajnetpp,
@@ -325,8 +336,22 @@ std::vector<ImportedClip> Importer::clips(const std::filesystem::path& file, con
     return track == known.tracks.end() ? known.file.clips(options) : std::vector{*track};
 }
 
+std::vector<ImportedClip> ParsedFile::clips(const ImportOptions& options) const {
+    std::vector<ImportedClip> out;
+    each(
+        options, [&](ImportedClip&& clip) { out.push_back(std::move(clip)); }, false);
+    return out;
+}
+
+void import_each(const std::filesystem::path& file, const ImportOptions& options, const ClipSink& sink) {
+    at_place(file.string(), "", [&] { check(options); });
+    parse_clip_file(file).each(options, sink, true);
+}
+
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options) {
-    return Importer().clips(file, options);
+    std::vector<ImportedClip> out;
+    import_each(file, options, [&](ImportedClip&& clip) { out.push_back(std::move(clip)); });
+    return out;
 }
 
 std::string does_not_apply(const std::string& key, const std::filesystem::path& file) {

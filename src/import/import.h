@@ -33,11 +33,15 @@ std::string listed_trajectory_extensions();
 
 /// A file that has been read: makes clips of it, however often. Safe from any number of threads.
 struct ParsedFile {
-    /// Every clip in the file, in its order: of many tracks each of them, unless options.id names one; likewise of
-    /// several animations and options.animation. Throws InputError.
-    std::function<std::vector<ImportedClip>(const ImportOptions&)> clips;
+    /// Gives every clip in the file, in its order: of many tracks each of them, unless options.id names one; likewise
+    /// of several animations and options.animation. `last`: the file is not asked again, and gives up its memory as the
+    /// clips are made. Throws InputError.
+    std::function<void(const ImportOptions&, const ClipSink&, bool last)> each;
     /// What the file has for each option; depends on a part of `options` alone (offer_depends_on). Throws InputError.
     std::function<ImportOffer(const ImportOptions&)> offer;
+
+    /// All of `each`.
+    std::vector<ImportedClip> clips(const ImportOptions& options) const;
 };
 
 /// One kind of file, whatever its name: a row of the table of formats.
@@ -77,7 +81,9 @@ class Importer {
     std::map<std::filesystem::path, Known> known_;
 };
 
-/// The same for one file.
+/// Gives every clip of one file (ParsedFile::each), and holds no more than that takes. Throws InputError.
+void import_each(const std::filesystem::path& file, const ImportOptions& options, const ClipSink& sink);
+/// The same, all at once.
 std::vector<ImportedClip> import_clips(const std::filesystem::path& file, const ImportOptions& options);
 
 /// Options with those left out that mean nothing for a file of one format.

@@ -95,7 +95,10 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
         const bool alone = wanted.size() == 1 || was.warp;
         const ImportOptions common = alone ? options : without_id(options);
         if (was.warp || made_with != common) {
-            made = at_place(file.path, "", [&] { return import_warped(file.parsed.clips, common, was.warp.get()); });
+            made = at_place(file.path, "", [&] {
+                return import_warped([&](const ImportOptions& of) { return file.parsed.clips(of); }, common,
+                                     was.warp.get());
+            });
             made_with = was.warp ? std::nullopt : std::optional(common);
         }
         const ImportedClip& imported = one_of(made, options, file.path);

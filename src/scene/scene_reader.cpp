@@ -556,10 +556,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
     Scene scene;
     std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
-    std::vector<ImportedClip> clips = import_clips(file, options);
-    // There may be a hundred thousand.
-    scene.clips.reserve(clips.size());
-    for (ImportedClip& imported : clips) {
+    import_each(file, options, [&](ImportedClip&& imported) {
         SceneClip clip{imported.name,
                        file.filename().string(),
                        options,
@@ -577,7 +574,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
         }
         scene.clips.push_back(std::move(clip));
-    }
+    });
     lay_out_clips(scene);
     return scene;
 }

@@ -6,6 +6,7 @@
 #include <mobb/clip.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -118,5 +119,8 @@ struct ImportedClip {
     std::vector<double> headings{};  ///< degrees, of a body whose file has them: one a sample; empty: as it moves
     std::string floor{};             ///< of a building: those of different floors never meet; empty: nobody says
 };
+
+/// Is given the clips of a file one by one.
+using ClipSink = std::function<void(ImportedClip&& clip)>;
 
 }  // namespace mobbscope

@@ -956,15 +956,15 @@ TrackFile parse_text_tracks(std::string_view text, const std::string& file) {
     return TextRows(text, file, none).numbers();
 }
 
-std::shared_ptr<const TrackFile> TableFile::table(const ImportOptions& options) const {
+std::shared_ptr<TrackFile> TableFile::table(const ImportOptions& options, bool takes) const {
     const RadiusColumn* const radius = options.radius ? std::get_if<RadiusColumn>(&*options.radius) : nullptr;
     const std::string choice = options.columns.value_or("") + '\n' + (radius ? radius->name : "");
     const std::lock_guard lock(mutex_);
     if (!last_ || choice != last_choice_) {
-        last_ = std::make_shared<const TrackFile>(parse_csv(text_, file_, options));
+        last_ = std::make_shared<TrackFile>(parse_csv(text_, file_, options));
         last_choice_ = choice;
     }
-    return last_;
+    return takes ? std::exchange(last_, nullptr) : last_;
 }
 
 std::string csv_field(std::string_view text) {

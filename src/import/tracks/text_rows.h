@@ -28,14 +28,14 @@ class TableFile {
     TableFile(std::string text, const std::string& file) : text_(std::move(text)), file_(file) {}
     TableFile(TableFile&& other) noexcept : text_(std::move(other.text_)), file_(std::move(other.file_)) {}
 
-    /// Throws InputError.
-    std::shared_ptr<const TrackFile> table(const ImportOptions& options) const;
+    /// `takes`: it is not kept here. Throws InputError.
+    std::shared_ptr<TrackFile> table(const ImportOptions& options, bool takes = false) const;
 
   private:
     std::string text_;
     std::string file_;
     mutable std::mutex mutex_;
-    mutable std::shared_ptr<const TrackFile> last_;
+    mutable std::shared_ptr<TrackFile> last_;
     mutable std::string last_choice_;
 };
 

@@ -379,23 +379,26 @@ OptionOffer unit_offer(double taken, const std::string& why) {
 
 }  // namespace
 
-std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
-                                      const ImportOptions& options) {
+void give_track_clips(TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options,
+                      const ClipSink& sink, bool spends) {
     const std::string name = file.string();
     refuse_skeleton_options(tracks, options, name);
     check_columns(tracks, name, options);
     TrackClipMaker maker = at_place(name, "", [&] { return TrackClipMaker(tracks, options); });
-    std::vector<ImportedClip> clips;
-    bool found = false;
+    bool found = false, given = false;
     const std::vector<TrackPart>& parts = maker.judged().parts;
+    auto track = tracks.tracks.begin();
     for (const TrackPart& part : parts) {
+        // Parts are in the order of their tracks.
+        for (; spends && &*track != part.track; ++track) track->points = {};
         if (options.id && part.id != *options.id) continue;
         found = true;
         const std::string place = at_line(part.first_line()) + (tracks.alone ? "" : ", track " + in_quotes(part.id));
         std::optional<ImportedClip> clip = at_place(name, place, [&] { return maker.make(part); });
         if (!clip) continue;
         clip->name = parts.size() > 1 ? part.id : input_stem(file);
-        clips.push_back(std::move(*clip));
+        given = true;
+        sink(std::move(*clip));
     }
     if (!found) {
         std::vector<std::string> ids;
@@ -404,14 +407,21 @@ std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesy
                          "has no track " + in_quotes(*options.id) + did_you_mean(*options.id, ids) + "; it has " +
                              std::to_string(ids.size()) + ", the first is " + in_quotes(ids.front()));
     }
-    if (clips.empty()) {
+    if (!given) {
         throw InputError(
             name, "",
             (options.id ? "track " + in_quotes(*options.id) + " has no point" : "nobody is there") + " between " +
                 format_double(options.trim->first) + " and " + format_double(options.trim->second) +
                 " s of trim, which counts from the earliest row; the file lasts " + brief(maker.duration()) + " s");
     }
-    return clips;
+}
+
+std::vector<ImportedClip> track_clips(TrackFile tracks, const std::filesystem::path& file,
+                                      const ImportOptions& options) {
+    std::vector<ImportedClip> out;
+    give_track_clips(
+        tracks, file, options, [&](ImportedClip&& clip) { out.push_back(std::move(clip)); }, true);
+    return out;
 }
 
 ImportOffer track_offer(const TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options) {

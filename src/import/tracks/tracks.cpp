@@ -22,7 +22,10 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
         point.detail = static_cast<int>(details_.size());
     }
     spent_.cover(used_, "its rows", file_);
-    tracks_[last_].points.push_back(point);
+    std::vector<TrackPoint>& points = tracks_[last_].points;
+    // Twice as much would be empty for the most part where there are many short tracks.
+    if (points.size() == points.capacity()) points.reserve(points.size() + std::max<std::size_t>(points.size() / 4, 4));
+    points.push_back(point);
 }
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {

@@ -186,9 +186,12 @@ TrackFile parse_mapf_plan(std::string_view text, const std::string& file);
 /// frequent step, which is also how long a track of one point lasts; tracks out of step are resampled (30 fps), both
 /// with a warning. options.dt is the time from one frame number to the next (timed
 /// tracks: how long one of one point lasts); options.trim is of the common clock, and who is not there then is left
-/// out. Tracks are taken apart where they cannot be one's (sanity.h), unless options.keep_jumps says no. Throws
-/// InputError.
-std::vector<ImportedClip> track_clips(const TrackFile& tracks, const std::filesystem::path& file,
+/// out. Tracks are taken apart where they cannot be one's (sanity.h), unless options.keep_jumps says no. `spends`: the
+/// points of a track are gone once its clips are made. Throws InputError.
+void give_track_clips(TrackFile& tracks, const std::filesystem::path& file, const ImportOptions& options,
+                      const ClipSink& sink, bool spends);
+/// The same, all at once.
+std::vector<ImportedClip> track_clips(TrackFile tracks, const std::filesystem::path& file,
                                       const ImportOptions& options);
 
 /// Without ids the one track is a motion: held, uniform in time or resampled as a whole (trim takes a part before
