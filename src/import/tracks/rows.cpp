@@ -155,6 +155,8 @@ TrackFile RowReader::finish() {
             for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);
         }
     }
+    if (const std::string back = tracks_.step_back(); out.has_times && !back.empty())
+        out.warnings.push_back({back + "; till then rows count in order of time"});
     out.spent = tracks_.take_spent();
     if (lost_ > 0) {
         out.warnings.push_back({counted(lost_, "row is", "rows are") + " marked as lost or not active and left out"});
