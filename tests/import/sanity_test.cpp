@@ -123,6 +123,169 @@ TEST(Sanity, AJumpSplitsATrackWhereItsClassCannotMakeIt) {
     ASSERT_NE(finding(swapped[0], "2 jumps are"), nullptr);
 }
 
+/// Each kind with a seed; nobody is split, and where the ways are `far` apart who swap ids still are.
+struct Tracker {
+    const char* name;
+    double dt, noise;   ///< seconds, metres
+    int held = 0;       ///< rows that it stands still once in a while, and then catches up
+    double far = 5;     ///< metres
+    double to_row = 0;  ///< rows between places that it knows
+};
+
+std::string tracked(const Tracker& by, bool swaps) {
+    mobb::test::Random random(11);
+    const auto normal = [&random] {
+        double sum = -6;
+        for (int i = 0; i < 12; ++i) sum += random.real(0, 1);
+        return sum;
+    };
+    std::string rows = "id,t,x,y\n";
+    constexpr int kPairs = 25, kRows = 200;
+    for (int pair = 0; pair < kPairs; ++pair) {
+        std::vector<Spot> ways[2];
+        for (int who = 0; who < 2; ++who) {
+            const double heading = random.real(0, 6), turn = random.real(-0.1, 0.1), speed = random.real(0.7, 1.7);
+            Spot at{random.real(0, 50), 500.0 * pair + who * (by.far + kRows * by.dt * 4)};
+            if (swaps) at = {0, 500.0 * pair};
+            int held = 0;
+            for (int i = 0; i < kRows; ++i) {
+                const double way = heading + turn * i * by.dt;
+                at = {at.x + speed * by.dt * std::cos(way), at.y + speed * by.dt * std::sin(way)};
+                const bool near_swap = std::abs(i - kRows / 2) <= 2 * by.held;
+                if (by.held > 0 && held == 0 && !near_swap && random.integer(0, 40) == 0)
+                    held = random.integer(2, by.held);
+                const bool stands = i > 0 && (held > 0 || (by.to_row > 0 && std::fmod(i, by.to_row) != 0));
+                if (held > 0) --held;
+                ways[who].push_back(stands ? ways[who].back()
+                                           : Spot{at.x + by.noise * normal(), at.y + by.noise * normal()});
+            }
+        }
+        if (swaps) {
+            // The other comes by far enough to the right of where the one is then.
+            const Spot a = ways[0][kRows / 2], b = ways[1][kRows / 2];
+            for (Spot& at : ways[1]) at = {at.x + a.x - b.x + by.far, at.y + a.y - b.y};
+            std::swap_ranges(ways[0].begin() + kRows / 2, ways[0].end(), ways[1].begin() + kRows / 2);
+        }
+        for (int who = 0; who < 2; ++who) {
+            for (int i = 0; i < kRows; ++i) {
+                const Spot at = ways[who][static_cast<std::size_t>(i)];
+                rows += formatted("%d,%.3f,%.3f,%.3f\n", 2 * pair + who, i * by.dt, at.x, at.y);
+            }
+        }
+    }
+    return rows;
+}
+
+TEST(Sanity, NoiseAndTrackersThatCatchUpSplitNobodyAndSwappedIdsAreSplit) {
+    const Tracker trackers[] = {{"clean", 0.1, 0.01},
+                                {"0.2 m", 0.1, 0.2},
+                                {"0.2 m at 25 Hz", 0.04, 0.2},
+                                {"radio tags", 0.02, 0.3, 0, 8},
+                                {"satellites, 1 m", 1, 1, 0, 40},
+                                {"satellites, 3 m", 1, 3, 0, 90},
+                                {"satellites, each place ten times", 0.1, 2, 0, 120, 10},
+                                {"frozen", 0.04, 0.01, 30, 20},
+                                {"frozen at 10 Hz", 0.1, 0.02, 15, 20},
+                                {"six rows a place", 0.04, 0.05, 0, 8, 6}};
+    for (const Tracker& by : trackers) {
+        const auto whole = csv_clips(tracked(by, false));
+        EXPECT_EQ(whole.size(), 50u) << by.name;
+        for (const ImportedClip& clip : whole) {
+            EXPECT_EQ(finding(clip, "row is left out"), nullptr) << by.name;
+            EXPECT_EQ(clip.facts.doubt, "") << by.name;
+        }
+        // What is too fast in single steps is told, and marked.
+        if (by.held > 0 || (by.noise >= 0.2 && by.dt < 0.1)) {
+            EXPECT_NE(finding(whole[0], "faster than its class can be, the worst"), nullptr) << by.name;
+            const auto is_marked = [](const ImportedClip& clip) { return !clip.facts.invented.empty(); };
+            EXPECT_TRUE(std::ranges::any_of(whole, is_marked)) << by.name;
+        }
+        const auto split = csv_clips(tracked(by, true));
+        // Of who is seen every tenth row alone it is seen in the next one.
+        EXPECT_EQ(split.size(), 100u) << by.name;
+    }
+    // A row far off in noise is named; more of them too, and none splits anybody.
+    mobb::test::Random random(3);
+    std::string rows = kSanityHead;
+    for (int i = 0; i < 200; ++i) {
+        const double off = i % 50 == 20 ? 12 : i % 50 == 21 ? -9 : 0;
+        rows +=
+            formatted("a,%.1f,%.3f,%.3f\n", 0.1 * i, 0.14 * i + random.real(-0.2, 0.2), off + random.real(-0.2, 0.2));
+    }
+    const auto off = csv_clips(rows);
+    ASSERT_EQ(off.size(), 1u);
+    EXPECT_EQ(off[0].facts.frames, 192);
+    ASSERT_NE(finding(off[0], "8 rows are left out"), nullptr);
+}
+
+TEST(Sanity, WhoIsInTwoPlacesByTurnsIsInOne) {
+    std::string rows = kSanityHead;
+    for (int i = 0; i < 60; ++i)
+        rows += formatted("a,%.1f,%.2f,%d\n", 0.1 * i, 0.1 * i, i > 20 && i < 40 ? i % 2 * 9 : 0);
+    for (const ImportedClip& clip : csv_clips(rows)) {
+        for (const mobb::Disk& disk : clip.clip->samples()) EXPECT_EQ(disk.y, clip.clip->samples()[0].y);
+    }
+}
+
+TEST(Sanity, AClockThatStepsIsToldAsThat) {
+    for (const double step : {7.0, 3600.0}) {
+        std::string text = kSanityHead;
+        for (const char* id : {"a", "b", "c"}) text += rows_of_walk(id, 0, 4, along_x(0, 2.0 * *id));
+        for (const char* id : {"b", "a", "d"}) text += rows_of_walk(id, 4 + step, 8 + step, along_x(5, 2.0 * *id));
+        const auto read = csv_clips(text);
+        EXPECT_EQ(ids_of(read), (std::set<std::string>{"a", "a#2", "b", "b#2", "c", "d"}));
+        const ImportWarning* said =
+            finding(read[0], "the clock steps by " + brief(step) + " s for all at once, track 'b'");
+        ASSERT_NE(said, nullptr) << read[0].facts.warnings[0].text;
+        EXPECT_EQ(said->line, 125);
+        EXPECT_EQ(finding(read[0], "pause"), nullptr);
+        // Who pauses while others are there.
+        text += rows_of_walk("e", 0, 8 + step, along_x(0, 900, 0.5));
+        EXPECT_EQ(finding(csv_clips(text)[0], "clock"), nullptr);
+        EXPECT_NE(finding(csv_clips(text)[0], "2 pauses are longer"), nullptr);
+    }
+}
+
+TEST(Sanity, TimesThatGoBackAreNamed) {
+    std::string in_order = kSanityHead, back;
+    for (int i = 0; i < 40; ++i)
+        in_order += formatted("a,%.2f,%.2f,0\nb,%.2f,%.2f,5\n", 0.1 * i, 0.1 * i, 0.1 * i, 0.1 * i);
+    for (int i = 0; i < 40; ++i)
+        back += formatted("a,%.2f,%.2f,0\nb,%.2f,%.2f,5\n", 1.95 + 0.1 * i, 4 + 0.1 * i, 1.95 + 0.1 * i, 4 + 0.1 * i);
+    EXPECT_EQ(finding(csv_clips(in_order)[0], "go back"), nullptr);
+    const auto read = csv_clips(in_order + back);
+    EXPECT_NE(finding(read[0], "times go back by 1.95 in line 82 and 1 row more: was the clock set back"), nullptr);
+    // At the same moments again.
+    std::string again = in_order;
+    for (int i = 0; i < 40; ++i) again += formatted("a,%.2f,%.2f,0\n", 2 + 0.1 * i, 4 + 0.1 * i);
+    const std::string refused = csv_refusal(again);
+    EXPECT_NE(refused.find("remove one, or: times go back by 1.9 in line 82: was the clock"), std::string::npos)
+        << refused;
+    // Rows in any order do not go back.
+    std::string backwards = kSanityHead;
+    for (int i = 40; i > 0; --i) backwards += formatted("a,%.2f,%.2f,0\n", 0.1 * i, 0.1 * i);
+    EXPECT_EQ(finding(csv_clips(backwards)[0], "go back"), nullptr);
+}
+
+TEST(Sanity, TheClassSaysHowFastItIsWhereThereIsOne) {
+    const auto driven = [](const char* label, double speed) {
+        std::string text = "id,t,x,y,class\n";
+        for (int i = 0; i < 40; ++i) text += formatted("1,%.1f,%.1f,0,%s\n", 0.5 * i, 0.5 * speed * i, label);
+        return text;
+    };
+    for (const auto& [label, speed] : std::initializer_list<std::pair<const char*, double>>{
+             {"train", 90}, {"car", 70}, {"Car", 60}, {"truck", 25}, {"pedestrian", 1.4}}) {
+        const auto read = csv_clips(driven(label, speed));
+        ASSERT_EQ(read.size(), 1u) << label;
+        EXPECT_EQ(read[0].facts.doubt, "") << label;
+        EXPECT_TRUE(read[0].facts.invented.empty()) << label;
+    }
+    EXPECT_NE(csv_refusal(driven("unknown", 60)).find("the median speed of who moves is 60 m/s"), std::string::npos);
+    EXPECT_NE(csv_refusal(driven("car", 140)).find("faster than its class is"), std::string::npos);
+    EXPECT_NE(csv_refusal(driven("pedestrian", 60)).find("the median speed"), std::string::npos);
+    EXPECT_NE(csv_clips(driven("pedestrian", 20))[0].facts.doubt, "");
+}
+
 TEST(Sanity, EightMetresASecondBindPeopleAlone) {
     std::string text = "id,t,x,y,class\n";
     const auto add = [&text](const std::string& label, double speed) {

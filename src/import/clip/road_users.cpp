@@ -11,7 +11,7 @@ namespace mobbscope {
 namespace {
 
 constexpr double kOnFoot = 8;    // m/s: sprinters are faster, for seconds
-constexpr double kByMotor = 70;  // m/s
+constexpr double kByMotor = 75;  // on a motorway
 
 /// The first that fits counts.
 constexpr RoadUser kRoadUsers[] = {
@@ -45,7 +45,8 @@ constexpr RoadUser kRoadUsers[] = {
     {"bus", kByMotor, 6, 2.55, true},
     {"buses", kByMotor, 6, 2.55, true},
     {"tram", kByMotor, 15, 2.4},
-    {"train", kByMotor, 0, 0, true},
+    {"train", 110, 0, 0, true},
+    {"railway", 110},
     {"trailer", kByMotor},
     {"vehicle", kByMotor, 2.25, 1.8},
 };

@@ -206,6 +206,8 @@ TrackFile RowReader::finish() {
             for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);
         }
     }
+    if (const std::string back = tracks_.step_back(); out.has_times && !back.empty())
+        out.warnings.push_back({back + "; till then rows count in order of time"});
     out.spent = tracks_.take_spent();
     tell_details(out);
     if (lost_ > 0) {

@@ -1,3 +1,4 @@
+#include <base/median.h>
 #include <base/text.h>
 #include <import/clip/road_users.h>
 #include <import/tracks/sanity.h>
@@ -19,18 +20,25 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kFastestPerson = 8;     // m/s
-constexpr double kFastestOfAll = 70;     // cars
-constexpr double kFastestMedian = 45;    // no recording has more
+constexpr double kFastestPerson = 8;     // m/s: sprinters are faster, for seconds
+constexpr double kFastestOfAll = 75;     // cars on a motorway
+constexpr double kFastestMedian = 45;    // no recording of who has no class has more
 constexpr double kSlowestMedian = 0.01;  // nor less
 constexpr double kSlowMedian = 0.1;      // slower than anybody walks
 constexpr double kOfPeople = 4;          // median of who has no class: over it they drive
-constexpr double kLeastJump = 0.5;       // metres: less is noise
+constexpr double kLeastJump = 2.5;       // metres: less is what a tracker that lost somebody catches up
+constexpr double kLeastLost = 0.5;       // metres: likewise to where who is lost is written
+constexpr double kLeastTold = 0.5;       // of a step that is too fast and told
+constexpr double kTooFast = 1.5;         // times what its class can, likewise
+constexpr double kNoise = 7;             // times the median of what rows are off the line of those beside them
+constexpr std::size_t kNoiseRows = 12;   // of which that is taken, on either side
+constexpr std::size_t kMostOff = 3;      // rows that are left out as points far off
 constexpr double kLongestPause = 5;      // seconds
 constexpr double kMostStepsOfPause = 20;
 constexpr std::size_t kMostSpeeds = 1 << 16;  // points that a median is taken of, about
 constexpr std::size_t kFewestSpeeds = 10;     // that prove anything
 constexpr std::size_t kStepsTogether = 10;    // of which a speed is taken: noise goes nowhere
+constexpr double kSecondsTogether = 5;        // likewise
 constexpr double kLeastShare = 0.5;           // of the time in which they move, for their being slow to be told
 constexpr double kLeastHeadway = 0.3;         // of who moves: the way that is left of the path
 
@@ -54,11 +62,17 @@ struct Worst {
 
     void take(double how_bad, const Track& of, const TrackPoint& a, const TrackPoint& b) {
         ++count;
-        if (!track || how_bad > by) *this = {count, how_bad, &of, a, b};
+        if (!track || how_bad > by || (how_bad == by && b.line < to.line)) *this = {count, how_bad, &of, a, b};
     }
 };
 
 using Place = std::pair<double, double>;
+
+/// Frames.
+struct Hole {
+    double begin = 0, end = 0;
+    std::size_t tracks = 0;  ///< so many pause over it
+};
 
 std::string place_words(const TrackPoint& point) { return "(" + brief(point.x) + ", " + brief(point.y) + ")"; }
 
@@ -75,11 +89,12 @@ class Judge {
         }
         judge_speeds();
         for (const Track& track : file_.tracks) look_at(track);
+        find_clock_steps();
         for (std::size_t i = 0; i < file_.tracks.size(); ++i) take_apart(file_.tracks[i], limits_[i]);
         if (out_.parts.empty()) {
             // Nobody is left: then the places are places.
             lost_.clear();
-            jumps_ = pauses_ = off_ = {};
+            jumps_ = pauses_ = clock_ = off_ = {};
             left_out_ = moves_ = 0;
             for (std::size_t i = 0; i < file_.tracks.size(); ++i) take_apart(file_.tracks[i], limits_[i]);
         }
@@ -152,9 +167,11 @@ class Judge {
         for (std::size_t i = 1; i < points.size(); ++i) path += metres(points[i - 1], points[i]);
         return path > 0 && metres(points.front(), points.back()) >= kLeastHeadway * path;
     }
+    /// Of each step, or of all together where that is less: single steps of noise are fast.
     void add_speeds(const Track& track, std::size_t first, std::size_t last, std::vector<Median>& speeds) const {
+        const double together = speed(track.points[first], track.points[last]);
         for (std::size_t i = first + 1; i <= last; ++i) {
-            const double here = speed(track.points[i - 1], track.points[i]);
+            const double here = std::min(together, speed(track.points[i - 1], track.points[i]));
             if (here > 0) speeds.push_back({here, &track, track.points[i].line});
         }
     }
@@ -165,11 +182,14 @@ class Judge {
         median_ = median->speed;
         if (!has_metres()) return;
         double fastest = 0;
-        for (const Track& track : file_.tracks)
-            fastest = std::max(fastest, std::min(fastest_of(label(track), kOfPeople), kFastestMedian));
+        for (const Track& track : file_.tracks) {
+            const double of_class = fastest_of(label(track), kOfPeople);
+            fastest = std::max(fastest, of_class);
+            if (road_user(label(track))) believed_ = std::max(believed_, of_class);
+        }
         // Who stands makes some headway by chance.
         const bool is_fast = median_ > fastest, is_slow = median_ < kSlowMedian && median->share >= kLeastShare;
-        const bool is_absurd = median_ > kFastestMedian || median_ < kSlowestMedian;
+        const bool is_absurd = median_ > believed_ || median_ < kSlowestMedian;
         const bool is_proven = median->of >= kFewestSpeeds && !file_.alone;
         if ((!is_fast && !is_slow) || (!is_proven && (scale_.is_said || !is_absurd))) return;
         const std::string said = "the median speed of who moves is " + brief(median_) + " m/s (" +
@@ -237,42 +257,107 @@ class Judge {
         if (file_.alone) return kNoLimit;
         double median = 0;
         if (label(track).empty()) {
-            speeds_.clear();
-            for (std::size_t i = 1; i < track.points.size(); ++i) {
-                const double here = speed(track.points[i - 1], track.points[i]);
-                if (here > 0) speeds_.push_back(here);
-            }
-            const auto middle = speeds_.begin() + std::ssize(speeds_) / 2;
-            std::ranges::nth_element(speeds_, middle);
-            median = speeds_.size() < kFewestSpeeds ? median_ : *middle;
+            median = track.points.size() <= kFewestSpeeds ? median_ : median_over_steps(track.points);
         }
         const double fastest = fastest_of(label(track), median);
         // Where the unit of all is in doubt, jumps are what stands out.
-        return has_metres() && median_ > kFastestMedian ? std::max(fastest, 10 * median_) : fastest;
+        return has_metres() && median_ > believed_ ? std::max(fastest, 10 * median_) : fastest;
+    }
+    /// Of several steps together each, but of few of all.
+    double median_over_steps(std::span<const TrackPoint> points) {
+        const auto rows = static_cast<std::size_t>(kSecondsTogether / step_seconds());
+        const std::size_t together = std::min(std::max(kStepsTogether, rows), points.size() / 4);
+        speeds_.clear();
+        for (std::size_t i = together; i < points.size(); ++i) {
+            const double here = speed(points[i - together], points[i]);
+            if (here > 0) speeds_.push_back(here);
+        }
+        return speeds_.empty() ? 0 : median(speeds_);
     }
 
-    /// Whether nobody of the class gets from point `at` - 1 to `at`, unless it goes on like that, or came like that.
-    bool is_jump(std::span<const TrackPoint> points, std::size_t at, double fastest) const {
-        const Velocity here = velocity(points[at - 1], points[at]);
-        const double speed = here.speed();
-        if (!(speed > fastest) || metres(points[at - 1], points[at]) < kLeastJump) return false;
-        if (speed > std::max(fastest, kFastestOfAll)) return true;
+    static bool is_same_place(const TrackPoint& a, const TrackPoint& b) { return a.x == b.x && a.y == b.y; }
+    static bool is_lost_place(const TrackPoint& at) { return (at.x == -1 && at.y == -1) || (at.x == 0 && at.y == 0); }
+
+    /// How far off rows beside points `from` and `at` are, metres: of each row from the line through those beside it,
+    /// or one farther where that is less, as of somebody who is in two places by turns. Places that a tracker repeats
+    /// count once.
+    double noise(std::span<const TrackPoint> points, std::size_t from, std::size_t at) {
+        std::vector<const TrackPoint*> rows;
+        double least = kNoLimit;
+        for (std::size_t stride = 1; stride <= 2; ++stride) {
+            off_line_.clear();
+            for (const bool behind : {false, true}) {
+                rows.clear();
+                for (std::size_t i = behind ? at : from; i < points.size() && rows.size() < kNoiseRows;
+                     behind ? ++i : --i) {
+                    if (!rows.empty() && is_pause(*rows.back(), points[i])) break;
+                    if (rows.empty() || !is_same_place(*rows.back(), points[i])) rows.push_back(&points[i]);
+                }
+                for (std::size_t i = stride; i + stride < rows.size(); ++i) {
+                    const TrackPoint &a = *rows[i - stride], &b = *rows[i], &c = *rows[i + stride];
+                    const double s = (b.frame - a.frame) / (c.frame - a.frame);
+                    off_line_.push_back(std::hypot(a.x + s * (c.x - a.x) - b.x, a.y + s * (c.y - a.y) - b.y));
+                }
+            }
+            if (!off_line_.empty()) least = std::min(least, median(off_line_) * scale_.metres);
+        }
+        return least == kNoLimit ? 0 : least;
+    }
+
+    /// Longer ways, in metres, from point `from` to `at` are neither its class's, nor what trackers catch up, nor
+    /// noise.
+    double farthest(std::span<const TrackPoint> points, std::size_t from, std::size_t at, double fastest) {
+        const TrackPoint &a = points[from], &b = points[at];
+        const double least = is_lost_place(a) || is_lost_place(b) ? kLeastLost : kLeastJump;
+        const double can = fastest * seconds(a, b), most = std::max(can, least);
+        return metres(a, b) > most ? std::max(most, can + kNoise * noise(points, from, at)) : most;
+    }
+
+    /// Whether nobody of the class gets from point `from` to `at`, between which the place is that of `from`, unless it
+    /// goes on like that, or came like that. `run`: that of `from`.
+    bool is_jump(std::span<const TrackPoint> points, const Run& run, std::size_t from, std::size_t at, double fastest) {
+        // Back from where it jumped to.
+        if (run.after_jump && from == run.first &&
+            metres(points[from - 1], points[at]) < metres(points[from - 1], points[from]) / 2)
+            return true;
+        const double most = farthest(points, from, at, fastest);
+        const auto is_far = [&](std::size_t i, std::size_t j) { return metres(points[i], points[j]) > most; };
+        if (!is_far(from, at)) return false;
+        // Noise is as far in one row, but not in those beside it; a row that is off by itself is to be found all the
+        // same.
+        const bool is_last = at + 1 == points.size() || is_pause(points[at], points[at + 1]);
+        const bool is_alone = is_last || is_far(at, at + 1);
+        if (!is_alone && (!is_far(from, at + 1) || (from > run.first && !is_far(from - 1, at)))) return false;
+        const Velocity here = velocity(points[from], points[at]);
+        if (here.speed() > std::max(fastest, kFastestOfAll)) return true;
         const auto goes_on = [&](std::size_t other) {
             if (other < 1 || other >= points.size() || is_pause(points[other - 1], points[other])) return false;
             const Velocity there = velocity(points[other - 1], points[other]);
-            return std::hypot(there.x - here.x, there.y - here.y) <= speed / 2;
+            return std::hypot(there.x - here.x, there.y - here.y) <= here.speed() / 2;
         };
-        return !goes_on(at - 1) && !goes_on(at + 1);
+        return !goes_on(from) && !goes_on(at + 1);
     }
 
-    std::vector<Run> runs_of(const Track& track, double fastest) const {
+    std::vector<Run> runs_of(const Track& track, double fastest) {
         const std::span<const TrackPoint> points = track.points;
         std::vector<Run> out{{0, points.size()}};
         if (file_.alone) return out;
+        std::size_t held = 0;  // from here on the place is that of the row before
         for (std::size_t at = 1; at < points.size(); ++at) {
-            const bool pauses = is_pause(points[at - 1], points[at]);
-            const bool jumps = !pauses && has_metres() && is_jump(points, at, fastest);
-            if (!pauses && !jumps) continue;
+            const TrackPoint& before = points[at - 1];
+            if (!is_same_place(points[held], before)) held = at - 1;
+            // Who stands for long stands, and who came by a jump is not held there.
+            const bool is_held = (held > out.back().first || !out.back().after_jump) && !is_lost_place(before) &&
+                                 !is_pause(points[held], points[at]);
+            const bool pauses = is_pause(before, points[at]);
+            const bool jumps =
+                !pauses && has_metres() && is_jump(points, out.back(), is_held ? held : at - 1, at, fastest);
+            if (!pauses && !jumps) {
+                const double here = speed(before, points[at]);
+                if (has_metres() && here > kTooFast * fastest && metres(before, points[at]) >= kLeastTold)
+                    fast_.take(here / fastest, track, before, points[at]);
+                continue;
+            }
             out.back().last = at;
             out.back().before_jump = jumps;
             out.push_back({at, points.size(), jumps, false});
@@ -285,7 +370,6 @@ class Judge {
         return std::ranges::all_of(points.subspan(run.first, run.last - run.first),
                                    [&](const TrackPoint& at) { return at.x == first.x && at.y == first.y; });
     }
-    static bool is_lost_place(const TrackPoint& at) { return (at.x == -1 && at.y == -1) || (at.x == 0 && at.y == 0); }
 
     /// Finds breaks, and where somebody jumps to, stands, and jumps away from: (-1, -1), (0, 0), or a place where that
     /// is so twice.
@@ -296,9 +380,47 @@ class Judge {
         for (const Run& run : runs) {
             const TrackPoint& at = track.points[run.first];
             if ((!run.after_jump && !run.before_jump) || !stands(track.points, run)) continue;
-            if (is_lost_place(at) || !jumped_to_.insert({at.x, at.y}).second) lost_.insert({at.x, at.y});
+            // Two who swap places came to each once.
+            const bool again = run.after_jump && !jumped_to_.insert({at.x, at.y}).second;
+            if (again || is_lost_place(at)) lost_.insert({at.x, at.y});
         }
         broken_.emplace(&track, std::move(runs));
+    }
+
+    /// When nobody is seen for longer than a pause, between rows of two tracks at least.
+    void find_clock_steps() {
+        if (broken_.size() < 2) return;
+        std::vector<Hole> seen;
+        for (const Track& track : file_.tracks) {
+            const auto broken = broken_.find(&track);
+            std::size_t first = 0;
+            const std::size_t runs = broken == broken_.end() ? 1 : broken->second.size();
+            for (std::size_t i = 0; i < runs; ++i) {
+                const std::size_t last = i + 1 < runs ? broken->second[i].last : track.points.size();
+                seen.push_back({track.points[first].frame, track.points[last - 1].frame});
+                first = last;
+            }
+        }
+        std::ranges::sort(seen, {}, &Hole::begin);
+        double end = seen.front().end;
+        for (const Hole& run : seen) {
+            if ((run.begin - end) * scale_.seconds > longest_pause_) holes_.push_back({end, run.begin});
+            end = std::max(end, run.end);
+        }
+        for (const auto& [track, runs] : broken_) {
+            for (std::size_t i = 1; i < runs.size(); ++i) {
+                if (Hole* hole = hole_in(track->points[runs[i].first - 1], track->points[runs[i].first]))
+                    ++hole->tracks;
+            }
+        }
+        std::erase_if(holes_, [](const Hole& hole) { return hole.tracks < 2; });
+    }
+    /// The one that a pause is, but for less than a pause; null: none.
+    Hole* hole_in(const TrackPoint& a, const TrackPoint& b) {
+        const auto hole = std::ranges::lower_bound(holes_, a.frame, {}, &Hole::begin);
+        const bool is_it = hole != holes_.end() && hole->end <= b.frame &&
+                           (b.frame - a.frame - (hole->end - hole->begin)) * scale_.seconds <= longest_pause_;
+        return is_it ? &*hole : nullptr;
     }
 
     bool is_lost(std::span<const TrackPoint> points, const Run& run) const {
@@ -306,9 +428,26 @@ class Judge {
         return !lost_.empty() && lost_.contains({at.x, at.y}) && stands(points, run);
     }
 
-    /// Whether one can get from `a` to `b` without what is between.
-    bool goes_on(const TrackPoint& a, const TrackPoint& b, double fastest) const {
-        return !is_pause(a, b) && speed(a, b) <= fastest;
+    /// Whether one can get from point `from` to `to` without what is between.
+    bool goes_on(std::span<const TrackPoint> points, std::size_t from, std::size_t to, double fastest) {
+        return !is_pause(points[from], points[to]) &&
+               metres(points[from], points[to]) <= farthest(points, from, to, fastest);
+    }
+    /// How many runs from `first` on are off the way from the rows before them to those behind: one place, or few rows;
+    /// at either end one row.
+    std::size_t runs_off(std::span<const TrackPoint> points, std::span<const Run> runs, std::size_t first,
+                         double fastest) {
+        const Run& run = runs[first];
+        const auto is_row = [&](std::size_t i) { return runs[i].last == runs[i].first + 1; };
+        if (first == 0) return run.before_jump && is_row(0) && !is_row(1) ? 1 : 0;
+        if (!run.after_jump) return 0;
+        if (first + 1 == runs.size()) return is_row(first) && !is_row(first - 1) ? 1 : 0;
+        for (std::size_t end = first + 1; end < runs.size() && runs[end].after_jump; ++end) {
+            const bool is_place = end == first + 1 && stands(points, run);
+            if (!is_place && runs[end].first - run.first > kMostOff) break;
+            if (goes_on(points, run.first - 1, runs[end].first, fastest)) return end - first;
+        }
+        return 0;
     }
 
     /// Adds parts of a track that has so many, one a floor; gives how many it has then.
@@ -335,7 +474,9 @@ class Judge {
         const auto broken = broken_.find(&track);
         const std::vector<Run> runs = broken == broken_.end() ? std::vector<Run>{{0, points.size()}} : broken->second;
         const auto count_break = [&](const TrackPoint& a, const TrackPoint& b) {
-            if (is_pause(a, b)) {
+            if (const Hole* hole = is_pause(a, b) ? hole_in(a, b) : nullptr) {
+                clock_.take((hole->end - hole->begin) * scale_.seconds / longest_pause_, track, a, b);
+            } else if (is_pause(a, b)) {
                 pauses_.take(seconds(a, b) / longest_pause_, track, a, b);
             } else {
                 jumps_.take(speed(a, b) / limit, track, a, b);
@@ -349,12 +490,10 @@ class Judge {
             return;
         }
         std::vector<Run> kept;
-        for (std::size_t i = 0; i < runs.size(); ++i) {
+        for (std::size_t i = 0, off_until = 0; i < runs.size(); ++i) {
             const Run& run = runs[i];
-            const bool is_between = run.after_jump && run.before_jump && i > 0 && i + 1 < runs.size();
-            const bool is_off =
-                is_between && stands(points, run) && goes_on(points[run.first - 1], points[run.last], limit);
-            if (is_off || is_lost(points, run)) {
+            if (i >= off_until) off_until = i + runs_off(points, runs, i, limit);
+            if (i < off_until || is_lost(points, run)) {
                 left_out_ += run.last - run.first;
                 const std::size_t from = run.first > 0 ? run.first - 1 : std::min(run.last, points.size() - 1);
                 off_.take(speed(points[from], points[run.first]) / limit, track, points[from], points[run.first]);
@@ -368,7 +507,7 @@ class Judge {
             std::size_t end = i + 1;
             // What lies on both sides of rows that are left out is one where it can be.
             while (end < kept.size() && kept[end].first > kept[end - 1].last &&
-                   goes_on(points[kept[end - 1].last - 1], points[kept[end].first], limit))
+                   goes_on(points, kept[end - 1].last - 1, kept[end].first, limit))
                 ++end;
             if (end == i + 1) {
                 number = add(track, points.subspan(kept[i].first, kept[i].last - kept[i].first), limit, number);
@@ -412,6 +551,17 @@ class Judge {
                       (scale_.keeps_jumps ? "they are kept" : "tracks are split there") + remedy,
                   "keep_jumps", jumps_.to.line}});
         }
+        if (fast_.count > 0) {
+            const double length = metres(fast_.from, fast_.to), time = seconds(fast_.from, fast_.to);
+            found.push_back({0,
+                             {counted(fast_.count, "step is", "steps are") +
+                                  " faster than its class can be, the worst " + brief(length) + " m in " + brief(time) +
+                                  " s (" + brief(length / time) + " m/s), " + track(fast_) +
+                                  ", but the way goes on from there, as in noise or behind a tracker "
+                                  "that catches up: conflicts that rest on " +
+                                  (fast_.count == 1 ? "it" : "them") + " are marked",
+                              "", fast_.to.line}});
+        }
         if (off_.count > 0) {
             found.push_back(
                 {off_.by,
@@ -433,6 +583,15 @@ class Judge {
                       (scale_.keeps_jumps ? "they are filled" : "tracks are split there") + remedy,
                   "keep_jumps", pauses_.to.line}});
         }
+        if (clock_.count > 0) {
+            found.push_back(
+                {clock_.by,
+                 {"the clock steps by " + brief(clock_.by * longest_pause_) + " s for all at once" +
+                      (holes_.size() > 1 ? ", and " + counted(holes_.size() - 1, "time", "times") + " more" : "") +
+                      ", " + track(clock_) + " among them (did the recording stop, or was the clock set?): " +
+                      (scale_.keeps_jumps ? "that is filled" : "tracks are split there") + remedy,
+                  "keep_jumps", clock_.to.line}});
+        }
         std::ranges::stable_sort(found, std::greater<>{}, &std::pair<double, ImportWarning>::first);
         for (auto& [by, finding] : found) out_.findings.push_back(std::move(finding));
         if (moves_ > 0)
@@ -444,12 +603,15 @@ class Judge {
     TrackScale scale_;
     const Storeys& storeys_;
     double longest_pause_;
-    double median_ = 0;           ///< m/s of who moves
-    std::vector<double> limits_;  ///< by track, m/s
+    double median_ = 0;                 ///< m/s of who moves
+    double believed_ = kFastestMedian;  ///< more is no median
+    std::vector<double> limits_;        ///< by track, m/s
     std::unordered_map<const Track*, std::vector<Run>> broken_;
     std::set<Place> jumped_to_, lost_;
-    std::vector<double> speeds_;  ///< of a track
-    Worst jumps_, pauses_, off_;
+    std::vector<double> speeds_;    ///< of a track
+    std::vector<double> off_line_;  ///< metres, of rows
+    Worst jumps_, fast_, pauses_, clock_, off_;
+    std::vector<Hole> holes_;   ///< clock steps, in order
     std::size_t left_out_ = 0;  ///< rows
     std::size_t moves_ = 0;     ///< between floors
     std::set<std::string> ids_;

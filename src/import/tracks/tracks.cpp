@@ -23,9 +23,23 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
     }
     spent_.cover(used_, "its rows", file_);
     std::vector<TrackPoint>& points = tracks_[last_].points;
+    ++rows_;
+    if (!points.empty() && point.frame < points.back().frame) {
+        if (steps_back_++ == 0) back_line_ = point.line;
+        back_by_ = std::max(back_by_, points.back().frame - point.frame);
+    }
     // Twice as much would be empty for the most part where there are many short tracks.
     if (points.size() == points.capacity()) points.reserve(points.size() + std::max<std::size_t>(points.size() / 4, 4));
     points.push_back(point);
+}
+
+std::string TrackCollector::step_back() const {
+    // Rows in any order step back all the time.
+    constexpr std::size_t kFewestRows = 10;
+    if (steps_back_ == 0 || rows_ < kFewestRows * steps_back_) return "";
+    return "times go back by " + brief(back_by_) + " in " + at_line(back_line_) +
+           (steps_back_ > 1 ? " and " + counted(steps_back_ - 1, "row", "rows") + " more" : "") +
+           ": was the clock set back, or does another recording begin? Give other ids from there on if so";
 }
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
@@ -63,7 +77,9 @@ std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(c
             at = std::ranges::adjacent_find(track.points, {}, &TrackPoint::frame);
             if (at == track.points.end()) continue;
         }
-        throw InputError(file_, at_line((at + 1)->line), twice(track, *at) + std::to_string(at->line) + "; remove one");
+        throw InputError(file_, at_line((at + 1)->line),
+                         twice(track, *at) + std::to_string(at->line) + "; remove one" +
+                             (step_back().empty() ? "" : ", or: " + step_back()));
     }
     return take();
 }

@@ -133,6 +133,8 @@ class TrackCollector {
                                    bool once = false);
     std::size_t repeated() const { return repeated_; }      ///< rows that were left out
     int first_repeated() const { return first_repeated_; }  ///< line
+    /// "times go back by 3 s in line 42, ...", of rows that are in order else; "" if they do not.
+    std::string step_back() const;
     /// A file of them, by times; `in_milliseconds`: all of these are rounded so. Throws likewise.
     TrackFile take_timed(bool in_milliseconds);
     /// As they came.
@@ -151,6 +153,9 @@ class TrackCollector {
     std::size_t used_ = 0;  ///< bytes
     std::size_t repeated_ = 0;
     int first_repeated_ = 0;
+    std::size_t rows_ = 0, steps_back_ = 0;  ///< rows; those with a lower frame than the track's row before
+    double back_by_ = 0;                     ///< the farthest
+    int back_line_ = 0;                      ///< of the first
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last
 };
