@@ -79,6 +79,7 @@ void show_progress(const std::string& doing, int done, int all) {
 Workload table1(const BenchCommandArguments& arguments) {
     Scene scene = arguments.paths.empty() ? scene_of(short_moves(51, 2.1, arguments.seed))
                                           : load_files(arguments.paths, arguments.import_options);
+    refuse_bodies(scene, "a table");
     const int most = arguments.queries.value_or(kUsualQueries);
     Workload workload;
     const bool pairs_alone = scene.queries.empty();

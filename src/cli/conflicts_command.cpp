@@ -70,8 +70,8 @@ Scene crowd_in(Scene scene, const ConflictsCommandArguments& arguments) {
 /// The radius of every disk in metres, if it is one.
 std::optional<double> common_radius(const Scene& scene) {
     std::optional<double> radius;
-    for (const Agent& agent : scene.agents) {
-        for (const mobb::Disk& disk : scene.clips[static_cast<std::size_t>(agent.clip)].clip->samples()) {
+    for (const PlacedAgent& path : placed_members(scene)) {
+        for (const mobb::Disk& disk : path_of(scene, path)->samples()) {
             if (radius && *radius != disk.r) return std::nullopt;
             radius = disk.r;
         }
@@ -79,33 +79,46 @@ std::optional<double> common_radius(const Scene& scene) {
     return radius;
 }
 
-/// Who is who: a person of a run whose clips differ in dt, or are linear, is several agents of the scene.
+/// Who is who: a person of a run whose clips differ in dt, or are linear, is several agents of the scene; an agent with
+/// a body walks several paths at once.
 class People {
   public:
-    explicit People(const Scene& scene) {
-        for (const Agent& agent : scene.agents) {
-            const bool goes_on = agent.run_agent >= 0 && !of_.empty() && agent.run_agent == of_.back();
-            if (!goes_on) {
-                names_.push_back(agent.name);
-                samples_ = 0;
+    explicit People(const Scene& scene) : paths_(placed_members(scene)) {
+        int last = -1;  // the person's run agent
+        for (std::size_t path = 0; path < paths_.size(); ++path) {
+            const int agent = paths_[path].agent;
+            if (path > 0 && agent == paths_[path - 1].agent) {
+                of_.push_back(of_.back());
+                before_.push_back(before_.back());
+                continue;
             }
+            const int run_agent = scene.agents[static_cast<std::size_t>(agent)].run_agent;
+            const bool goes_on = run_agent >= 0 && path > 0 && run_agent == last;
+            before_.push_back(goes_on ? before_.back() + path_of(scene, paths_[path - 1])->count() : 0);
+            if (!goes_on) names_.push_back(paths_[path].name);
             of_.push_back(static_cast<int>(names_.size()) - 1);
-            before_.push_back(samples_);
-            samples_ += scene.clips[static_cast<std::size_t>(agent.clip)].clip->count();
+            last = run_agent;
         }
     }
 
-    std::span<const int> of_agents() const { return of_; }  ///< by agent of the scene
+    std::span<const PlacedAgent> paths() const { return paths_; }
+    std::span<const int> of_paths() const { return of_; }  ///< by path
     std::size_t count() const { return names_.size(); }
     const std::string& name(int person) const { return names_[static_cast<std::size_t>(person)]; }
-    /// A sample of an agent, counted from the first of all that the person walks.
-    int sample(int agent, int sample) const { return before_[static_cast<std::size_t>(agent)] + sample; }
+    int agent(int path) const { return paths_[static_cast<std::size_t>(path)].agent; }  ///< of the scene
+    /// The paths of a path's agent: the first, and the one behind the last.
+    std::pair<int, int> members(int path) const {
+        const auto range = std::ranges::equal_range(paths_, agent(path), {}, &PlacedAgent::agent);
+        return {static_cast<int>(range.begin() - paths_.begin()), static_cast<int>(range.end() - paths_.begin())};
+    }
+    /// A sample of a path, counted from the first of all that the person walks.
+    int sample(int path, int sample) const { return before_[static_cast<std::size_t>(path)] + sample; }
 
   private:
+    std::vector<PlacedAgent> paths_;
     std::vector<std::string> names_;
     std::vector<int> of_;
-    std::vector<int> before_;  ///< by agent: samples of the same person's earlier ones
-    int samples_ = 0;
+    std::vector<int> before_;  ///< by path: samples of the same person's earlier agents
 };
 
 /// When nobody was seen to move as one of two agents does (SourceFacts::invented), global seconds.
@@ -137,8 +150,8 @@ class InventedMotion {
 };
 
 /// Whether a conflict rests on it: where the two overlap deepest, or all the time.
-bool is_invented(const Scene& scene, const mobb::PeopleConflict& conflict) {
-    const InventedMotion invented(scene, conflict.deepest.a, conflict.deepest.b);
+bool is_invented(const Scene& scene, const People& people, const mobb::PeopleConflict& conflict) {
+    const InventedMotion invented(scene, people.agent(conflict.deepest.a), people.agent(conflict.deepest.b));
     return invented.holds(conflict.deepest.time) ||
            std::ranges::all_of(conflict.intervals, [&](const mobb::Interval& of) { return invented.covers(of); });
 }
@@ -160,13 +173,13 @@ struct Findings {
 
     void list(bool strict_motion) {
         for (std::size_t i = 0; i < conflicts.size(); ++i) {
-            if (strict_motion && is_invented(scene, conflicts[i])) continue;
+            if (strict_motion && is_invented(scene, people, conflicts[i])) continue;
             listed.push_back(i);
             if (strict_motion) seconds += conflicts[i].seconds();
         }
         if (!strict_motion) seconds = conflicts.seconds();
     }
-    const mobb::PlacedClip& clip(int agent) const { return conflicts.clip(agent); }
+    const mobb::PlacedClip& clip(int path) const { return conflicts.clip(path); }
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const mobb::Conflict& conflict) const {
         const mobb::Disk a = mobb::swept(clip(conflict.a), conflict.a_sample).at(conflict.time);
@@ -184,8 +197,8 @@ struct Findings {
     int b_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
 
     bool of_plan(const mobb::Conflict& conflict) const {
-        const auto from_plan = [this](int agent) {
-            return is_plan(scene.clips[static_cast<std::size_t>(scene.agents[static_cast<std::size_t>(agent)].clip)]);
+        const auto from_plan = [this](int path) {
+            return is_plan(scene.clips[static_cast<std::size_t>(people.paths()[static_cast<std::size_t>(path)].clip)]);
         };
         return from_plan(conflict.a) && from_plan(conflict.b);
     }
@@ -207,6 +220,34 @@ ListedSeconds listed_seconds(const mobb::MaybeSeconds& of) {
     return {std::nullopt, std::string(of.undefined)};
 }
 
+/// The lesser one; of two that are undefined the first.
+mobb::MaybeSeconds least(const mobb::MaybeSeconds& one, const mobb::MaybeSeconds& other) {
+    if (!other.undefined.empty()) return one;
+    return one.undefined.empty() && one.seconds <= other.seconds ? one : other;
+}
+
+/// Of two agents: of bodies the least over all pairs of members.
+void tell_times(const Findings& findings, const mobb::PeopleConflict& conflict, double within, ListedConflict& out) {
+    const mobb::Conflict& deepest = conflict.deepest;
+    const mobb::PlacedClip &clip_a = findings.clip(deepest.a), &clip_b = findings.clip(deepest.b);
+    mobb::MaybeSeconds course = mobb::time_to_collision(clip_a, clip_b, deepest, within);
+    mobb::MaybeSeconds encroachment = mobb::post_encroachment_time(clip_a, clip_b, deepest);
+    const auto [first_a, end_a] = findings.people.members(deepest.a);
+    const auto [first_b, end_b] = findings.people.members(deepest.b);
+    for (int a = first_a; a < end_a; ++a) {
+        for (int b = first_b; b < end_b; ++b) {
+            if (a == deepest.a && b == deepest.b) continue;
+            const mobb::PlacedClip &one = findings.clip(a), &other = findings.clip(b);
+            const mobb::Conflict of_members = mobb::conflict_of(one, other, within);
+            if (!of_members.intervals.empty())
+                course = least(course, mobb::time_to_collision(one, other, of_members, within));
+            encroachment = least(encroachment, mobb::post_encroachment_time(one, other, of_members));
+        }
+    }
+    out.time_to_collision = listed_seconds(course);
+    out.post_encroachment = listed_seconds(encroachment);
+}
+
 ListedConflict listed_conflict(const Findings& findings, std::size_t index, std::optional<double> within) {
     const mobb::PeopleConflict conflict = findings.conflicts[index];
     const mobb::Conflict& deepest = conflict.deepest;
@@ -220,16 +261,12 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
                        findings.a_sample(deepest),
                        findings.b_sample(deepest),
                        findings.position(deepest),
-                       is_invented(findings.scene, conflict),
+                       is_invented(findings.scene, findings.people, conflict),
                        std::nullopt,
                        std::nullopt,
                        std::nullopt};
     if (findings.of_plan(deepest)) out.plan = plan_conflicts(findings.clip(deepest.a), findings.clip(deepest.b));
-    if (within) {
-        const mobb::PlacedClip &a = findings.clip(deepest.a), &b = findings.clip(deepest.b);
-        out.time_to_collision = listed_seconds(mobb::time_to_collision(a, b, deepest, *within));
-        out.post_encroachment = listed_seconds(mobb::post_encroachment_time(a, b, deepest));
-    }
+    if (within) tell_times(findings, conflict, *within, out);
     return out;
 }
 
@@ -259,21 +296,19 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
 int run_conflicts(const ConflictsCommandArguments& arguments) {
     Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
     const std::optional<std::int64_t> unforced = unforced_in(loaded);
-    const bool walks_plays = loaded.crowd != nullptr;
     const Scene scene = crowd_in(std::move(loaded), arguments);
-    std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
     const People people(scene);
+    std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
+    const std::vector<int> floors = floors_of(scene);
     mobb::ConflictSearch search;
     search.within = arguments.within.value_or(0);
     search.least_seconds = arguments.least_seconds.value_or(0);
     search.direct = arguments.fit.brute;
+    search.floor_of = floors;
     if (arguments.fit.tree && arguments.within)
         throw InputError(arguments.file,
                          "trees find who collides and not who comes near; leave --tree or --within out");
     if (arguments.part) {
-        if (walks_plays)
-            throw InputError(arguments.file,
-                             "a run is not searched in parts, as its people walk several paths; leave --part out");
         if (search.direct) throw InputError(arguments.file, "--tree brute searches all; leave it or --part out");
         search.region = mobb::region_of_part(crowd, arguments.part->part - 1, arguments.part->parts);
     }
@@ -284,10 +319,10 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     std::vector<mobb::PlacedTree> placed;
     if (arguments.fit.tree) {
         trees = fitted(scene, arguments.fit);
-        for (const PlacedAgent& who : trees->placed_agents()) placed.push_back(trees->placed(who));
+        for (const PlacedAgent& path : people.paths()) placed.push_back(trees->placed(path));
         search.trees = placed;
     }
-    const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_agents(), search);
+    const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_paths(), search);
     Findings findings{scene, people, conflicts, unforced};
     findings.list(arguments.strict_motion);
     write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json

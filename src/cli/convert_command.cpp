@@ -55,6 +55,18 @@ void warn_of_lost_placements(const Scene& scene, const std::filesystem::path& ou
          " moved or turned, which a CSV does not hold: the clips are written where they are; write a scene (.json)");
 }
 
+/// Nor does it hold bodies or floors.
+void warn_of_lost_bodies(const Scene& scene, const std::filesystem::path& out) {
+    const auto bodies = std::ranges::count_if(scene.clips, [](const SceneClip& clip) { return !clip.body.empty(); });
+    const auto floors = std::ranges::count_if(scene.agents, [](const Agent& agent) { return !agent.floor.empty(); });
+    if (bodies > 0)
+        warn(out.string() + ": " + counted(bodies, "clip has a body", "clips have bodies") +
+             " of disks along the heading, which a CSV does not hold: r is that of the samples; write a scene (.json)");
+    if (floors > 0)
+        warn(out.string() + ": " + counted(floors, "agent is on a floor", "agents are on floors") +
+             ", which a CSV does not hold: those of different floors will meet; write a scene (.json)");
+}
+
 /// One row a sample: t,x,y,r, with the clip's name in front where there are several. t is the time of the sample, from
 /// when the clip starts.
 std::string to_csv(const Scene& scene) {
@@ -222,6 +234,7 @@ void run_convert(const ConvertCommandArguments& arguments) {
     warn_of_judged_tracks(scene, text, arguments.out);
     warn_of_lost_motion(scene, arguments.out);
     warn_of_lost_placements(scene, arguments.out);
+    warn_of_lost_bodies(scene, arguments.out);
 }
 
 void add_convert_options(Command& command, ConvertCommandArguments& arguments) {

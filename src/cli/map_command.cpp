@@ -105,6 +105,7 @@ void run_map(MapCommandArguments& arguments) {
     check_picture_output(arguments.out);
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
+    refuse_bodies(scene.scene(), "a map");
     const std::size_t count = scene.queries().size();
     if (static_cast<std::size_t>(arguments.query) >= count)
         throw InputError(arguments.file,
@@ -114,7 +115,7 @@ void run_map(MapCommandArguments& arguments) {
     const SceneQuery query = scene.queries()[static_cast<std::size_t>(arguments.query)];
     if (arguments.fit.brute) arguments.order.search = Search::direct;
     try {
-        check(arguments.order, query.b.placement, scene.tree(query.b.clip).clip());
+        check(arguments.order, query.b.placement, scene.tree(query.b).clip());
     } catch (const std::invalid_argument& error) {
         throw InputError(arguments.file, "query " + std::to_string(arguments.query) + ": " + error.what());
     }

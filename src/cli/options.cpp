@@ -291,6 +291,9 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
             const double metres = at_place(file.string(), "clip " + in_quotes(clip.name),
                                            [&] { return metres_of(*options.radius, clip.name, ""); });
             clip.clip = with_radius(*clip.clip, metres);
+            clip.body.clear();
+            clip.headings.clear();
+            make_members(clip);
             clip.digest.reset();
             clip.facts.warnings.clear();
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);

@@ -288,6 +288,7 @@ int run_query(QueryCommandArguments& arguments) {
     const FittedScene scene = fitted(load(arguments.file, arguments.import_options), arguments.fit);
     check_asks(scene, arguments.file);
     if (arguments.bodies) check_bodies(scene, arguments.file);
+    if (arguments.proof || !arguments.certificate.empty()) refuse_bodies(scene.scene(), "a proof");
     if (!arguments.certificate.empty()) check_output(arguments.certificate);
     for (const auto& [given, option] :
          {std::pair(where.has_value(), "--where filters"), std::pair(arguments.check, "--check compares"),

@@ -218,9 +218,8 @@ int compare_queries(const FittedScene& fitted, const mobb::FitOptions& other, bo
         }
         const SceneQuery query = fitted.queries()[index];
         const RecordedQuery recorded = record(fitted, query);
-        const FitComparison compared =
-            compare_fits(fitted.placed(query.a), fitted.placed(query.b), recorded,
-                         {second.shared_tree(query.a.clip), second.shared_tree(query.b.clip)});
+        const FitComparison compared = compare_fits(fitted.placed(query.a), fitted.placed(query.b), recorded,
+                                                    {second.shared_tree(query.a), second.shared_tree(query.b)});
         if (json) {
             write_comparison(out, index, query, recorded, compared, fits);
         } else {

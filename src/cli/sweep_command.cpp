@@ -354,6 +354,7 @@ void draw_sweep(const SweepCommandArguments& arguments, const Scene& scene, cons
 void run_sweep(SweepCommandArguments& arguments) {
     check_picture_output(arguments.out);
     const Scene scene = load_file_or_folder(arguments.file, arguments.import_options);
+    refuse_bodies(scene, "a sweep");
     SweepOrder order = arguments.over;
     order.present = arguments.fit.over(scene.fit);
     if (!order.varies()) {

@@ -20,6 +20,7 @@ struct VerifyCommandArguments {
 
 int run_verify(VerifyCommandArguments& arguments) {
     Scene loaded = load(arguments.file, arguments.import_options);
+    refuse_bodies(loaded, "a proof");
     const mobb::FitOptions fit = loaded.fit;
     const FittedScene scene(std::move(loaded), fit);
     const std::string name = shown_name(arguments.certificate);

@@ -29,11 +29,14 @@ struct Walked {
 
 std::vector<Walked> walked_in(const Scene& scene) {
     std::vector<Walked> out;
+    int person = 0;
     if (!is_run(scene)) {
-        for (const PlacedAgent& path : placed_agents(scene)) out.push_back({path, static_cast<int>(out.size())});
+        for (const PlacedAgent& who : placed_agents(scene)) {
+            for (const PlacedAgent& path : members_of(scene, who)) out.push_back({path, person});
+            ++person;
+        }
         return out;
     }
-    int person = 0;
     for (const CrowdAgent& agent : scene.crowd->agents) {
         std::optional<PlayJoint> joint;
         for (std::size_t i = 0; i < agent.plays.size(); ++i) {
@@ -55,10 +58,15 @@ std::vector<Walked> walked_in(const Scene& scene) {
 
 }  // namespace
 
+std::vector<PlacedAgent> placed_members(const Scene& scene) {
+    std::vector<PlacedAgent> out;
+    for (Walked& walked : walked_in(scene)) out.push_back(std::move(walked.path));
+    return out;
+}
+
 std::vector<mobb::PlacedClip> placed_clips(const Scene& scene) {
     std::vector<mobb::PlacedClip> out;
-    for (const PlacedAgent& who : placed_agents(scene))
-        out.emplace_back(*scene.clips[static_cast<std::size_t>(who.clip)].clip, who.placement);
+    for (const PlacedAgent& path : placed_members(scene)) out.emplace_back(*path_of(scene, path), path.placement);
     return out;
 }
 
@@ -79,11 +87,13 @@ std::vector<SceneConflict> conflicts_in(const Scene& scene, const Progress& prog
     std::vector<mobb::PlacedClip> crowd;
     std::vector<int> person_of;
     for (const Walked& one : walked) {
-        const mobb::ClipPtr& clip = one.joint ? one.joint : scene.clips[static_cast<std::size_t>(one.path.clip)].clip;
+        const mobb::ClipPtr& clip = one.joint ? one.joint : path_of(scene, one.path);
         crowd.emplace_back(*clip, one.path.placement);
         person_of.push_back(one.person);
     }
     mobb::ConflictSearch search;
+    const std::vector<int> floors = is_run(scene) ? std::vector<int>() : floors_of(scene);
+    search.floor_of = floors;
     search.progress = progress;
     search.spend = spend_on_conflicts();
     const mobb::PeopleConflicts conflicts(std::move(crowd), person_of, search);
@@ -107,21 +117,22 @@ std::vector<SceneConflict> conflicts_in(const Scene& scene, const Progress& prog
 
 std::uint64_t crowd_digest(const Scene& scene) {
     std::vector<mobb::Disk> numbers;
-    for (const Agent& agent : scene.agents) {
-        const mobb::Clip& clip = *scene.clips[static_cast<std::size_t>(agent.clip)].clip;
+    for (const PlacedAgent& path : placed_members(scene)) {
+        const mobb::Clip& clip = *path_of(scene, path);
         const std::uint64_t of = mobb::digest(clip.dt(), clip.samples(), clip.motion());
-        const mobb::Placement& at = agent.placement;
+        const mobb::Placement& at = path.placement;
         numbers.push_back({static_cast<double>(of >> 32), static_cast<double>(of & 0xffffffff), at.start});
         numbers.push_back({at.translate.x, at.translate.y, at.rotate_deg});
+        if (path.member > 0) numbers.push_back({static_cast<double>(path.member), 0, 0});
     }
+    for (const int floor : floors_of(scene)) numbers.push_back({static_cast<double>(floor), 0, 0});
     return mobb::digest(0, numbers, mobb::Motion::held);
 }
 
 std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conflict) {
     const double time = conflict.begin();
     const auto disk_of = [&](const PlacedAgent& who, const mobb::ClipPtr& joint) -> std::optional<mobb::Disk> {
-        const SceneClip& clip = scene.clips[static_cast<std::size_t>(who.clip)];
-        const mobb::PlacedClip placed(joint ? *joint : *clip.clip, who.placement);
+        const mobb::PlacedClip placed(joint ? *joint : *path_of(scene, who), who.placement);
         const int sample = mobb::first_ending_after(placed, 0, placed.count(), time);
         if (sample >= placed.count()) return std::nullopt;
         return mobb::swept(placed, sample).at(time);

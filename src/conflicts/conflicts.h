@@ -30,7 +30,8 @@ struct SceneConflict {
     double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds
 };
 
-/// The same for the same crowd: of each agent the digest of its clip (mobb::digest), in two halves, and its placement.
+/// The same for the same crowd: of each agent's paths the digests (mobb::digest), in two halves, and placements, and
+/// its floor.
 std::uint64_t crowd_digest(const Scene& scene);
 
 /// Where the two touch first in that contact: x, y, and when; none if one of them is not there. `scene`: of the
@@ -42,7 +43,9 @@ std::string sentence(const SceneConflict& conflict);
 /// The most that are kept at once, some 600 bytes each.
 inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
 
-/// The clips of placed_agents, as these place them. They refer to those of the scene.
+/// The placed agents of a scene that is no run, those with bodies as each of their members.
+std::vector<PlacedAgent> placed_members(const Scene& scene);
+/// Their paths, as they place them. They refer to those of the scene.
 std::vector<mobb::PlacedClip> placed_clips(const Scene& scene);
 
 /// For mobb::ConflictSearch::spend: throws InputError where that is more than the budget (base/budget.h).

@@ -23,7 +23,7 @@ bool same_cell(glm::dvec2 a, glm::dvec2 b) { return glm::distance(a, b) < kSameC
 
 std::string_view name(PlanConflictKind kind) { return kind == PlanConflictKind::vertex ? "vertex" : "swap"; }
 
-bool is_plan(const SceneClip& clip) { return clip.facts.format == "mapf"; }
+bool is_plan(const SceneClip& clip) { return clip.facts.format == "mapf" && clip.body.empty(); }
 
 std::vector<PlanConflict> plan_conflicts(const mobb::PlacedClip& a, const mobb::PlacedClip& b) {
     std::vector<PlanConflict> found;

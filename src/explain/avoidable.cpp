@@ -165,6 +165,9 @@ std::int64_t BlameInScene::of(int clip, int node) const {
 void BlameInScene::add(const FittedScene& fitted, const SceneQuery& query, const mobb::Trace& trace,
                        const AvoidableOverlaps& avoidable) {
     const std::array<int, 2> clips{query.a.clip, query.b.clip};
+    overlaps += static_cast<std::int64_t>(avoidable.found.size());
+    // Trees of members are no clip's.
+    if (query.a.member >= 0 || query.b.member >= 0) return;
     for (const int clip : clips) of_clip[static_cast<std::size_t>(clip)].resize(fitted.tree(clip).nodes().size());
     for (std::size_t i = 0; i < avoidable.events.size(); ++i) {
         const mobb::Trace::Event event = trace[avoidable.events[i]];
@@ -176,7 +179,6 @@ void BlameInScene::add(const FittedScene& fitted, const SceneQuery& query, const
         }
         without_blame += blame == Blame::none ? 1 : 0;
     }
-    overlaps += static_cast<std::int64_t>(avoidable.found.size());
 }
 
 BlameInScene blame_in(const FittedScene& fitted, const Progress& progress) {

@@ -36,6 +36,7 @@ void write_members(JsonWriter& out, const PlacedBody& a, const PlacedBody& b, co
 std::string why_no_bodies(const Scene& scene, const SceneQuery& query) {
     for (const PlacedAgent* side : {&query.a, &query.b}) {
         const SceneClip& clip = scene.clips[static_cast<std::size_t>(side->clip)];
+        if (!clip.body.empty()) return "the clip " + in_quotes(clip.name) + " is several disks, whatever its bones do";
         if (clip.skeleton) continue;
         return "the clip " + in_quotes(clip.name) + " has no skeleton: " +
                (clip.facts.joints > 0 ? "it has too many samples to keep one" : "its samples are disks alone");

@@ -61,6 +61,7 @@ std::vector<std::int64_t> tests_made_before(const mobb::Trace& trace) {
 template <class Use>
 void for_each_query(const FittedScene& fitted, const CostProgress& told, const mobb::TraceBound& bound,
                     const Use& use) {
+    refuse_bodies(fitted.scene(), "the cost of all queries");
     const std::size_t count = fitted.queries().size();
     for (std::size_t i = 0; i < count; ++i) {
         const SceneQuery query = fitted.queries()[i];

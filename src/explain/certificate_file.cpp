@@ -47,7 +47,7 @@ QueryCertificate read_certificate(const JsonPlace& place, const FittedScene& fit
             name.fail("it is about " + in_quotes(name.string()) + ", and the scene's query about " +
                       in_quotes(side->name));
     }
-    const auto samples = [&](const PlacedAgent& side) { return fitted.tree(side.clip).clip().count(); };
+    const auto samples = [&](const PlacedAgent& side) { return fitted.tree(side).clip().count(); };
     const JsonPlace contact = place.require("contact");
     out.proof.contact = read_contact(contact, samples(query.a), samples(query.b));
     const JsonPlace collides = place.require("collides");

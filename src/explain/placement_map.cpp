@@ -61,11 +61,11 @@ class MapRows {
           query_(query),
           map_(map),
           a_(fitted.placed(query.a)),
-          blocks_a_(blocks_of(fitted.tree(query.a.clip))),
-          blocks_b_(blocks_of(fitted.tree(query.b.clip))) {
+          blocks_a_(blocks_of(fitted.tree(query.a))),
+          blocks_b_(blocks_of(fitted.tree(query.b))) {
         if (map.order.show == MapShow::clearance) {
-            least_a_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.a.clip).clip());
-            least_b_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.b.clip).clip());
+            least_a_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.a).clip());
+            least_b_ = std::make_unique<const mobb::ClipDisks>(fitted.tree(query.b).clip());
         }
     }
 
@@ -372,7 +372,7 @@ std::optional<glm::ivec2> PlacementMap::cell_at(glm::dvec2 offset) const {
 
 PlacementMap map_placements(const FittedScene& fitted, const SceneQuery& query, const MapOrder& order,
                             const MapPass& pass, const Progress& progress) {
-    check(order, query.b.placement, fitted.tree(query.b.clip).clip());
+    check(order, query.b.placement, fitted.tree(query.b).clip());
     PlacementMap map{order, query.b.placement};
     const auto cells = static_cast<std::size_t>(order.width) * static_cast<std::size_t>(order.height);
     map.values.resize(cells);

@@ -103,8 +103,9 @@ QueryWorkload scene_workload(const Scene& scene, std::size_t most) {
     out.kind = QueryWorkload::Kind::queries;
     const std::size_t count = query_count(scene), taken = std::min(count, most);
     out.queries.reserve(taken);
+    const AskedPairs pairs(scene);
     for (std::size_t i = 0; i < taken; ++i) {
-        const SceneQuery query = query_at(scene, i * count / taken);
+        const SceneQuery query = query_at(scene, pairs, i * count / taken);
         out.queries.push_back({query.a.clip, query.b.clip, query.a.placement, query.b.placement});
     }
     return out;

@@ -159,7 +159,7 @@ SteppedTraces traces_at(std::span<const DrawnAgent> sides, const mobb::Trace& st
 }
 
 std::optional<std::string> yes_no_disagreement(const FittedScene& fitted, const SceneQuery& query, bool collides) {
-    const mobb::Blocks *of_a = fitted.tree(query.a.clip).blocks(), *of_b = fitted.tree(query.b.clip).blocks();
+    const mobb::Blocks *of_a = fitted.tree(query.a).blocks(), *of_b = fitted.tree(query.b).blocks();
     if (!of_a || !of_b) return std::nullopt;
     const mobb::PlacedBlocks a(*of_a, query.a.placement), b(*of_b, query.b.placement);
     const std::array pairs{mobb::BlocksPair{&a, &b}};

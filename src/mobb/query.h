@@ -35,6 +35,20 @@ struct Interval {
     friend bool operator==(const Interval&, const Interval&) = default;
 };
 
+/// Sorted, with those that touch or overlap put together.
+inline std::vector<Interval> joined(std::vector<Interval> intervals) {
+    std::ranges::sort(intervals, {}, &Interval::t0);
+    std::vector<Interval> out;
+    for (const Interval& interval : intervals) {
+        if (!out.empty() && interval.t0 <= out.back().t1 + kMinOverlap) {
+            out.back().t1 = std::max(out.back().t1, interval.t1);
+        } else {
+            out.push_back(interval);
+        }
+    }
+    return out;
+}
+
 /// The pair (i, j) over the time that it shares; it must share some.
 template <PlacedSamples A, PlacedSamples B>
 Approach approach_of(const A& a, int i, const B& b, int j) {

@@ -22,32 +22,17 @@ std::optional<SamplePair> first_close(const PlacedClip& a, int first_a, int end_
     return found;
 }
 
-/// The first pieces of two paths that are near each other; they must have such.
-std::pair<PathPiece, PathPiece> first_near(const PathPiece& a, const PlacedClip& clip_a, const PathPiece& b,
-                                           const PlacedClip& clip_b, double within) {
-    PathPiece one = piece_from(clip_a, a.path, 0, within), other = piece_from(clip_b, b.path, 0, within);
+/// The first pieces of two paths that are near each other; none if they never are.
+std::optional<std::pair<PathPiece, PathPiece>> first_near(const PlacedClip& a, const PlacedClip& b, double within) {
+    PathPiece one = piece_from(a, 0, 0, within), other = piece_from(b, 1, 0, within);
     while (!near(one, other)) {
-        if (one.t1 < other.t1) {
-            one = piece_from(clip_a, a.path, one.end, within);
-        } else {
-            other = piece_from(clip_b, b.path, other.end, within);
-        }
+        const bool is_one = one.t1 < other.t1;
+        PathPiece& next = is_one ? one : other;
+        const PlacedClip& clip = is_one ? a : b;
+        if (next.end >= clip.clip().steps()) return std::nullopt;
+        next = piece_from(clip, next.path, next.end, within);
     }
-    return {one, other};
-}
-
-/// Sorted, with those that touch or overlap put together: a path ends where the next one begins.
-std::vector<Interval> joined(std::vector<Interval> intervals) {
-    std::ranges::sort(intervals, {}, &Interval::t0);
-    std::vector<Interval> out;
-    for (const Interval& interval : intervals) {
-        if (!out.empty() && interval.t0 <= out.back().t1 + kMinOverlap) {
-            out.back().t1 = std::max(out.back().t1, interval.t1);
-        } else {
-            out.push_back(interval);
-        }
-    }
-    return out;
+    return std::pair(one, other);
 }
 
 /// One conflict of all those between the paths of two people.
@@ -69,7 +54,10 @@ PeopleConflict put_together(int a, int b, std::span<const Conflict> of_paths) {
 
 PeopleConflicts::PeopleConflicts(std::vector<PlacedClip> crowd, std::span<const int> person_of,
                                  const ConflictSearch& search)
-    : crowd_(std::move(crowd)), person_of_(person_of.begin(), person_of.end()), search_(search) {
+    : crowd_(std::move(crowd)),
+      person_of_(person_of.begin(), person_of.end()),
+      floor_of_(search.floor_of.begin(), search.floor_of.end()),
+      search_(search) {
     search_.direct ? take_all_pairs() : sweep();
     rank();
 }
@@ -77,39 +65,68 @@ PeopleConflicts::PeopleConflicts(std::vector<PlacedClip> crowd, std::span<const 
 void PeopleConflicts::sweep() {
     const double within = search_.within;
     const bool is_whole = search_.region.is_all();
+    const bool is_path_each = people() == crowd_.size();
     // People of several paths may come near each other with several of them.
     std::vector<std::pair<int, int>> near_people;
-    const bool is_path_each = people() == crowd_.size();
     const auto on_near = [&](const PathPiece& a, const PathPiece& b, bool first) {
-        const PlacedClip &clip_a = clip(a.path), &clip_b = clip(b.path);
-        if (first && !is_whole) {
-            const auto [one, other] = first_near(a, clip_a, b, clip_b, within);
-            if (!search_.region.has(one, other)) return true;
+        const int person = person_of(a.path), other = person_of(b.path);
+        if (are_apart(person, other)) return true;
+        if (first && !is_path_each) near_people.emplace_back(person, other);
+        if (first && is_path_each && (is_whole || is_found_in_region(person, other))) {
+            ++tested_;
+            if (!is_whole) take_pair(person, other);
         }
-        if (first && is_path_each) ++tested_;
-        if (first && !is_path_each) near_people.emplace_back(person_of(a.path), person_of(b.path));
+        // Of a region it is not told where else they meet: they are looked at as a whole.
+        if (!is_whole) return true;
         std::optional<SamplePair> close = SamplePair{0, 0};
-        if (search_.trees.empty()) {
-            // Of a region it is not told where else they meet.
-            close = is_whole ? first_close(clip_a, a.first, a.end, clip_b, b.first, b.end, within)
-                             : first_close(clip_a, 0, clip_a.count(), clip_b, 0, clip_b.count(), within);
-        }
+        if (search_.trees.empty())
+            close = first_close(clip(a.path), a.first, a.end, clip(b.path), b.first, b.end, within);
         if (close) meet({a.path, b.path, close->a, close->b});
-        return close || !is_whole;
+        return close.has_value();
     };
     sweep_paths(crowd_, person_of_, within, search_.region, on_near, search_.progress);
     std::ranges::sort(near_people);
-    tested_ += static_cast<std::size_t>(std::unique(near_people.begin(), near_people.end()) - near_people.begin());
+    near_people.erase(std::unique(near_people.begin(), near_people.end()), near_people.end());
+    for (const auto& [person, other] : near_people) {
+        if (!is_whole && !is_found_in_region(person, other)) continue;
+        ++tested_;
+        if (!is_whole) take_pair(person, other);
+    }
+}
+
+/// Of their paths that ever come near each other the first two tell, by where they do so first.
+bool PeopleConflicts::is_found_in_region(int person, int other) const {
+    const auto [first_a, end_a] = paths_of(person);
+    const auto [first_b, end_b] = paths_of(other);
+    for (int a = first_a; a < end_a; ++a) {
+        for (int b = first_b; b < end_b; ++b) {
+            const auto near = first_near(clip(a), clip(b), search_.within);
+            if (near) return search_.region.has(near->first, near->second);
+        }
+    }
+    return false;
+}
+
+/// Those of their paths that meet.
+void PeopleConflicts::take_pair(int person, int other) {
+    const auto [first_a, end_a] = paths_of(person);
+    const auto [first_b, end_b] = paths_of(other);
+    for (int a = first_a; a < end_a; ++a) {
+        for (int b = first_b; b < end_b; ++b) {
+            std::optional<SamplePair> close = SamplePair{0, 0};
+            if (search_.trees.empty())
+                close = first_close(clip(a), 0, clip(a).count(), clip(b), 0, clip(b).count(), search_.within);
+            if (close) meet({a, b, close->a, close->b});
+        }
+    }
 }
 
 void PeopleConflicts::take_all_pairs() {
-    const int paths = static_cast<int>(crowd_.size());
-    for (int a = 0; a < paths; ++a) {
-        if (search_.progress) search_.progress(static_cast<std::size_t>(a), crowd_.size());
-        for (int b = a + 1; b < paths; ++b) {
-            if (person_of(a) == person_of(b)) continue;
-            const auto close = first_close(clip(a), 0, clip(a).count(), clip(b), 0, clip(b).count(), search_.within);
-            if (close) meet({a, b, close->a, close->b});
+    const int persons = static_cast<int>(people());
+    for (int person = 0; person < persons; ++person) {
+        if (search_.progress) search_.progress(static_cast<std::size_t>(person), people());
+        for (int other = person + 1; other < persons; ++other) {
+            if (!are_apart(person, other)) take_pair(person, other);
         }
     }
     tested_ = pairs();
@@ -173,7 +190,30 @@ std::size_t PeopleConflicts::people() const {
     return person_of_.empty() ? 0 : static_cast<std::size_t>(person_of_.back()) + 1;
 }
 
-std::size_t PeopleConflicts::pairs() const { return people() < 2 ? 0 : people() * (people() - 1) / 2; }
+std::size_t PeopleConflicts::pairs() const {
+    const auto pairs_of = [](std::size_t count) { return count < 2 ? 0 : count * (count - 1) / 2; };
+    std::vector<int> floors = floor_of_;
+    std::erase(floors, 0);
+    std::ranges::sort(floors);
+    std::size_t apart = pairs_of(floors.size());
+    for (auto first = floors.begin(); first != floors.end();) {
+        const auto end = std::upper_bound(first, floors.end(), *first);
+        apart -= pairs_of(static_cast<std::size_t>(end - first));
+        first = end;
+    }
+    return pairs_of(people()) - apart;
+}
+
+std::pair<int, int> PeopleConflicts::paths_of(int person) const {
+    const auto range = std::ranges::equal_range(person_of_, person);
+    return {static_cast<int>(range.begin() - person_of_.begin()), static_cast<int>(range.end() - person_of_.begin())};
+}
+
+bool PeopleConflicts::are_apart(int person, int other) const {
+    if (floor_of_.empty()) return false;
+    const int one = floor_of_[static_cast<std::size_t>(person)], two = floor_of_[static_cast<std::size_t>(other)];
+    return one != two && one != 0 && two != 0;
+}
 
 double PeopleConflicts::seconds() const {
     double sum = 0;

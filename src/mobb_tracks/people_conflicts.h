@@ -28,9 +28,12 @@ struct PeopleConflict {
 struct ConflictSearch {
     double within = 0;         ///< metres >= 0 between the disks; 0: those who collide
     double least_seconds = 0;  ///< whom no interval keeps so close for so long is left out
-    Region region;             ///< pairs whose paths first come near each other in it (Region::has) are found
+    Region
+        region;  ///< pairs whose paths, the first two that do, first come near each other in it (Region::has) are found
     /// Measures every pair of samples of every pair of paths, and sweeps nothing; the region must be all.
     bool direct = false;
+    /// By person, or empty: numbers of floors, 0 where nobody says. People of two floors never meet.
+    std::span<const int> floor_of{};
     /// By path: trees that are asked of the pairs that come near each other. Without them these are measured. `within`
     /// must be 0, and the trees outlive what is found.
     std::span<const PlacedTree> trees{};
@@ -44,8 +47,9 @@ struct ConflictSearch {
 class PeopleConflicts {
   public:
     /// `person_of` says, for each path of the crowd, whose it is: a person's paths stand together, and people count
-    /// from 0 in their order. A person's own paths, which join, are no conflict. All ways of searching find the same.
-    /// In a region that is not all each person must have one path. The clips must outlive what is found.
+    /// from 0 in their order. A person's own paths, which join or are the disks of one body, are no conflict. All ways
+    /// of searching find the same, and regions that share nothing and cover all find each pair of people in one. The
+    /// clips must outlive what is found.
     PeopleConflicts(std::vector<PlacedClip> crowd, std::span<const int> person_of, const ConflictSearch& search = {});
 
     std::size_t size() const { return ranked_.size(); }
@@ -55,7 +59,7 @@ class PeopleConflicts {
 
     const PlacedClip& clip(int path) const { return crowd_[static_cast<std::size_t>(path)]; }
     std::size_t people() const;
-    std::size_t pairs() const;                            ///< of people
+    std::size_t pairs() const;                            ///< of people, but not of two floors
     std::size_t pairs_tested() const { return tested_; }  ///< of people: of whose paths any two came near
     double seconds() const;                               ///< of all conflicts
 
@@ -71,10 +75,14 @@ class PeopleConflicts {
     };
 
     void sweep();
+    bool is_found_in_region(int person, int other) const;
+    void take_pair(int person, int other);
     void take_all_pairs();
     void meet(const Meeting& met);
     void rank();
     int person_of(int path) const { return person_of_[static_cast<std::size_t>(path)]; }
+    std::pair<int, int> paths_of(int person) const;  ///< the first, and the one behind the last
+    bool are_apart(int person, int other) const;
     std::pair<int, int> people_of(const Meeting& met) const { return {person_of(met.a), person_of(met.b)}; }
     Conflict conflict_between(const Meeting& met) const;
     PeopleConflict measured(const Ranked& ranked) const;
@@ -82,6 +90,7 @@ class PeopleConflicts {
 
     std::vector<PlacedClip> crowd_;
     std::vector<int> person_of_;
+    std::vector<int> floor_of_;
     ConflictSearch search_;
     std::vector<Meeting> met_;  ///< by people
     std::size_t tested_ = 0;

@@ -15,8 +15,9 @@ Workload workload_of_scene(const Scene& scene) {
     for (const SceneClip& clip : scene.clips) workload.clips.push_back(clip.clip);
     const std::size_t count = std::min(query_count(scene), static_cast<std::size_t>(kMaxQueries));
     workload.queries.reserve(count);
+    const AskedPairs pairs(scene);
     for (std::size_t i = 0; i < count; ++i) {
-        const SceneQuery query = query_at(scene, i);
+        const SceneQuery query = query_at(scene, pairs, i);
         workload.queries.push_back({query.a.clip, query.b.clip, query.a.placement, query.b.placement});
     }
     return workload;

@@ -58,6 +58,23 @@ std::optional<std::string> other_answer(const SceneQuery& query, const Answer& a
     return out;
 }
 
+/// Of all members of bodies.
+std::vector<mobb::Interval> contacts_of(const FittedScene& fitted, const SceneQuery& query, Search search) {
+    std::vector<mobb::Interval> out;
+    const std::vector<PlacedAgent> of_b = members_of(fitted.scene(), query.b);
+    for (const PlacedAgent& member_a : members_of(fitted.scene(), query.a)) {
+        const mobb::PlacedTree a = fitted.placed(member_a);
+        for (const PlacedAgent& member_b : of_b) {
+            const mobb::PlacedTree b = fitted.placed(member_b);
+            const auto found = search == Search::direct
+                                   ? mobb::direct_contact_intervals(a.placed_clip(), b.placed_clip())
+                                   : mobb::contact_intervals(a, b);
+            out.insert(out.end(), found.begin(), found.end());
+        }
+    }
+    return mobb::joined(std::move(out));
+}
+
 }  // namespace
 
 Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details) {
@@ -73,13 +90,7 @@ Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details&
         answer.contact = ask(fitted, query, details.search, statistics);
         answer.tests = statistics.tests;
     }
-    if (details.all_contacts) {
-        const mobb::PlacedTree a = fitted.placed(query.a);
-        const mobb::PlacedTree b = fitted.placed(query.b);
-        answer.contacts = details.search == Search::direct
-                              ? mobb::direct_contact_intervals(a.placed_clip(), b.placed_clip())
-                              : mobb::contact_intervals(a, b);
-    }
+    if (details.all_contacts) answer.contacts = contacts_of(fitted, query, details.search);
     return answer;
 }
 
@@ -87,6 +98,10 @@ void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, c
     out.member("query", index);
     out.member("a", query.a.name);
     out.member("b", query.b.name);
+    if (query.a.member >= 0 || query.b.member >= 0) {
+        out.key("members");
+        out.tuple(std::max(query.a.member, 0), std::max(query.b.member, 0));
+    }
     out.member("collides", answer.contact.has_value());
     out.key("contact");
     write_contact(out, answer.contact);
@@ -114,8 +129,9 @@ std::string sentence(const SceneQuery& query, const std::optional<mobb::Contact>
     // Two that hardly touch need more digits.
     const auto [distance, radii] = told_apart(contact->distance, contact->radii, metres_text);
     return a + " and " + b + " collide at " + to_thousandth(contact->time) + " s: sample " +
-           std::to_string(contact->a_sample) + " of " + a + " and sample " + std::to_string(contact->b_sample) +
-           " of " + b + " are " + distance + " m apart, their radii add up to " + radii + " m.";
+           std::to_string(contact->a_sample) + " of " + a + disk_words(query.a) + " and sample " +
+           std::to_string(contact->b_sample) + " of " + b + disk_words(query.b) + " are " + distance +
+           " m apart, their radii add up to " + radii + " m.";
 }
 
 bool expects_tests(const SceneQuery& query) {

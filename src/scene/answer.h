@@ -24,13 +24,14 @@ struct Answer {
     std::optional<mobb::Trace> trace;                     ///< if it was asked for
     std::optional<std::vector<int>> steps{};              ///< of the trace that are told of; none: all
     std::optional<std::vector<int>> avoidable{};          ///< events that are avoidable overlaps, from who judges them
-    std::optional<std::vector<mobb::Interval>> contacts;  ///< likewise
+    std::optional<std::vector<mobb::Interval>> contacts;  ///< likewise; of all members of bodies
     Search search = Search::trees;                        ///< that found it
 };
 
 Answer answer(const FittedScene& fitted, const SceneQuery& query, const Details& details);
 
-/// The members of one element of `results` in the output of `query --json`.
+/// The members of one element of `results` in the output of `query --json`; of bodies `members` are the two disks
+/// asked.
 void write_answer(JsonWriter& out, std::size_t index, const SceneQuery& query, const Answer& answer);
 
 /// The answer in words: who collides when and where, or that they never do.

@@ -22,12 +22,15 @@ struct FloorRect {
     glm::dvec2 high{std::numeric_limits<double>::lowest()};
 };
 
-FloorRect reach_of(const mobb::PlacedClip& clip) {
+FloorRect reach_of(const Scene& scene, const PlacedAgent& who) {
     FloorRect out;
-    for (int i = 0; i < clip.count(); ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        out.low = glm::min(out.low, glm::dvec2(disk.x, disk.y) - disk.r);
-        out.high = glm::max(out.high, glm::dvec2(disk.x, disk.y) + disk.r);
+    for (const PlacedAgent& member : members_of(scene, who)) {
+        const mobb::PlacedClip clip(*path_of(scene, member), member.placement);
+        for (int i = 0; i < clip.count(); ++i) {
+            const mobb::Disk disk = clip.disk(i);
+            out.low = glm::min(out.low, glm::dvec2(disk.x, disk.y) - disk.r);
+            out.high = glm::max(out.high, glm::dvec2(disk.x, disk.y) + disk.r);
+        }
     }
     return out;
 }
@@ -38,7 +41,7 @@ std::vector<GridCell> grid_of(const Scene& scene, std::span<const PlacedAgent> a
     std::vector<FloorRect> reach;
     glm::dvec2 size(0);
     for (const PlacedAgent& who : agents) {
-        reach.push_back(reach_of({*scene.clips[static_cast<std::size_t>(who.clip)].clip, who.placement}));
+        reach.push_back(reach_of(scene, who));
         size = glm::max(size, reach.back().high - reach.back().low);
     }
     const glm::dvec2 step = size + std::max(kGap * std::max(size.x, size.y), kLeastGap);

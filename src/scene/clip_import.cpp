@@ -105,8 +105,15 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
         out.push_back({index,
                        {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start,
                         was.warp}});
-        name_own_radius(out.back().is);
-        if (was.turn) at_place(file.path, "", [&] { bend(out.back().is, *was.turn); });
+        SceneClip& is = out.back().is;
+        is.own_body = was.own_body && !options.radius;
+        is.body = is.own_body ? was.body : imported.body;
+        is.headings = imported.headings;
+        name_own_radius(is);
+        at_place(file.path, "", [&] {
+            if (was.turn) bend(is, *was.turn);
+            make_members(is);
+        });
     }
     return out;
 }
@@ -116,6 +123,7 @@ ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion) {
     const mobb::Clip& was = *made.is.clip;
     made.is.clip = std::make_shared<const mobb::Clip>(
         was.dt(), std::vector<mobb::Disk>(was.samples().begin(), was.samples().end()), motion);
+    make_members(made.is);
     made.is.digest.reset();
     made.is.facts.warnings.clear();
     warn_of_long_held_step(*made.is.clip, made.is.facts.warnings);

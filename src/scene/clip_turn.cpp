@@ -77,6 +77,8 @@ void bend(SceneClip& clip, const ClipTurn& turn) {
     }
     mobb::ClipPtr bent_clip = bent(*clip.clip, turn);
     if (clip.skeleton) clip.skeleton = turned_skeleton(*clip.skeleton, *clip.clip, turn);
+    for (std::size_t i = 0; i < clip.headings.size(); ++i)
+        clip.headings[i] += turn.at(static_cast<double>(i) * bent_clip->dt());
     clip.clip = std::move(bent_clip);
     clip.turn = turn;
 }

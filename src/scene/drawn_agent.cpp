@@ -34,12 +34,14 @@ bool fits_a_label(const std::string& name) {
 DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who, int index,
                             const Rgba& color, const NameList& names) {
     const Scene& scene = fitted.scene();
-    DrawnAgent out{{fitted.tree(who.clip), shown_placement(fitted, view, who)},
+    const SceneClip& clip = scene.clips[static_cast<std::size_t>(who.clip)];
+    DrawnAgent out{{fitted.tree(who), shown_placement(fitted, view, who)},
                    who.name,
                    names.shortened(who.name, fits_a_label),
                    color,
                    index,
-                   scene.clips[static_cast<std::size_t>(who.clip)].skeleton.get()};
+                   clip.members.empty() ? clip.skeleton.get() : nullptr};
+    for (const mobb::ClipPtr& member : clip.members) out.members.emplace_back(*member, out.clip().placement());
     if (who.agent < 0) return out;
     const Agent& agent = scene.agents[static_cast<std::size_t>(who.agent)];
     out.run_agent = agent.run_agent;
@@ -152,6 +154,12 @@ std::vector<DrawnAgent> drawn_agents(const FittedScene& fitted, const ViewState&
     out.push_back(make_drawn_agent(fitted, view, query.b, 1, color_b, names));
     mark(out[0], query.a);
     mark(out[1], query.b);
+    // What is said of a query with bodies is true of these two disks alone.
+    for (const auto& [side, who] : {std::pair(&out[0], &query.a), std::pair(&out[1], &query.b)}) {
+        if (who->member < 0) continue;
+        side->name += disk_words(*who);
+        side->label += disk_words(*who);
+    }
     // Two sides of one name could not be told apart.
     if (out[1].name == out[0].name) {
         out[0].name += " (A)";

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct DrawnAgent {
     std::string label;  ///< the name as pictures say it: short enough to leave room for what is said of it
     Rgba color;
     int index = 0;                       ///< in DrawList::agents
-    const Skeleton* skeleton = nullptr;  ///< of the clip; null: none
+    const Skeleton* skeleton = nullptr;  ///< of the clip; null: none, or it has a body
     int run_agent = -1;                  ///< of a run: who plays it, as Agent::run_agent; else -1
     bool goes_on = false;                ///< of a run: another play begins when this one ends
     /// Of a run in space-time: the samples within the view's window, maybe none; nothing: all of them.
@@ -31,9 +32,16 @@ struct DrawnAgent {
     bool dimmed = false;           ///< others stand out: its colour is on the way to the background's
     bool named = false;            ///< its name stands in the picture, however many there are
     std::optional<int> subtree{};  ///< of its boxes those of this node and below it are drawn alone
+    std::vector<mobb::PlacedClip> members{};  ///< of a body: the paths of its disks, which are drawn in place of clip()
 
     bool is_whole() const { return !hidden && !outlined; }
     const mobb::PlacedClip& clip() const { return placed.placed_clip(); }
+    /// What is drawn of it: clip(), or its members. All have as many samples, at the same times.
+    std::span<const mobb::PlacedClip> paths() const {
+        return members.empty() ? std::span(&clip(), 1) : std::span<const mobb::PlacedClip>(members);
+    }
+    /// Of a query the member that is asked; else all.
+    bool is_asked(const mobb::PlacedClip& path) const { return &path.clip() == &clip().clip(); }
     mobb::SampleRange samples() const { return window.value_or(mobb::SampleRange{0, clip().count()}); }  ///< drawn
     double begin() const { return clip().time(0); }
     double end() const { return clip().time(clip().count()); }

@@ -1,4 +1,5 @@
 #include <base/text.h>
+#include <mobb/least_clearance.h>
 #include <scene/fitted_scene.h>
 
 #include <map>
@@ -22,12 +23,19 @@ std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, con
         }
     }
     NamedFit out{std::move(name), options, {}};
-    out.trees.reserve(scene.clips.size());
-    for (const SceneClip& clip : scene.clips) {
-        std::shared_ptr<const mobb::Tree>& tree = made[clip.clip.get()];
-        if (!tree) tree = std::make_shared<const mobb::Tree>(clip.clip, options);
+    std::size_t all = scene.clips.size();
+    for (const SceneClip& clip : scene.clips) all += clip.members.size();
+    out.trees.reserve(all);
+    const auto add = [&](const mobb::ClipPtr& path) {
+        std::shared_ptr<const mobb::Tree>& tree = made[path.get()];
+        if (!tree) tree = std::make_shared<const mobb::Tree>(path, options);
         out.trees.push_back(tree);
-        if (progress) progress(out.trees.size(), scene.clips.size());
+        if (progress) progress(out.trees.size(), all);
+    };
+    for (const SceneClip& clip : scene.clips) add(clip.clip);
+    for (const SceneClip& clip : scene.clips) {
+        out.members_at.push_back(out.trees.size());
+        for (const mobb::ClipPtr& member : clip.members) add(member);
     }
     for (const FittedScene* source : sources) {
         for (const auto& fit : source->fits()) {
@@ -37,7 +45,40 @@ std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, con
     return std::make_shared<const NamedFit>(std::move(out));
 }
 
+/// Metres between two paths where they come nearest; none if they share no time.
+std::optional<double> nearest_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b) {
+    const auto nearest = mobb::least_clearance(a, mobb::ClipDisks(a.clip()), b, mobb::ClipDisks(b.clip()));
+    return nearest ? std::optional(nearest->clearance) : std::nullopt;
+}
+
 }  // namespace
+
+SceneQuery QueryList::operator[](std::size_t index) const {
+    SceneQuery out = query_at(*scene_, *pairs_, index);
+    const std::vector<PlacedAgent> of_a = members_of(*scene_, out.a), of_b = members_of(*scene_, out.b);
+    out.a = of_a.front();
+    out.b = of_b.front();
+    if (of_a.size() * of_b.size() == 1) return out;
+    std::optional<double> first;  // seconds: the first contact
+    std::optional<double> least;  // metres
+    for (const PlacedAgent& a : of_a) {
+        const mobb::PlacedTree tree_a(*fit_->tree(a), a.placement);
+        for (const PlacedAgent& b : of_b) {
+            const mobb::PlacedTree tree_b(*fit_->tree(b), b.placement);
+            if (const auto contact = mobb::query(tree_a, tree_b)) {
+                if (first && contact->time >= *first) continue;
+                first = contact->time;
+            } else {
+                const auto nearest = first ? std::nullopt : nearest_of(tree_a.placed_clip(), tree_b.placed_clip());
+                if (!nearest || (least && *nearest >= *least)) continue;
+                least = nearest;
+            }
+            out.a.member = a.member;
+            out.b.member = b.member;
+        }
+    }
+    return out;
+}
 
 FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, const FittedScene* previous,
                          const Progress& progress)
@@ -47,12 +88,14 @@ FittedScene::FittedScene(Scene scene, const mobb::FitOptions& options, std::span
                          const Progress& progress)
     : scene_(std::make_shared<const Scene>(std::move(scene))),
       placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
+      asked_pairs_(std::make_shared<const AskedPairs>(*scene_)),
       fits_{fit_of(*scene_, "", options, previous, progress)} {}
 
 FittedScene::FittedScene(std::shared_ptr<const Scene> scene, std::vector<std::shared_ptr<const NamedFit>> fits,
                          std::size_t in_use)
     : scene_(std::move(scene)),
       placed_agents_(std::make_shared<const std::vector<PlacedAgent>>(mobbscope::placed_agents(*scene_))),
+      asked_pairs_(std::make_shared<const AskedPairs>(*scene_)),
       fits_(std::move(fits)),
       in_use_(in_use) {}
 

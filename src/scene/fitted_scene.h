@@ -14,25 +14,35 @@
 
 namespace mobbscope {
 
-/// The queries of a scene as a list whose elements are made when asked for (query_at). Refers to the scene.
-class QueryList {
-  public:
-    explicit QueryList(const Scene& scene) : scene_(&scene) {}
-
-    std::size_t size() const { return query_count(*scene_); }
-    bool empty() const { return size() == 0; }
-    /// 0 <= index < size().
-    SceneQuery operator[](std::size_t index) const { return query_at(*scene_, index); }
-
-  private:
-    const Scene* scene_;
-};
-
 /// A tree over each clip of a scene, all fitted with the same options.
 struct NamedFit {
     std::string name;  ///< "" of the first fit of a scene
     mobb::FitOptions options;
-    std::vector<std::shared_ptr<const mobb::Tree>> trees;  ///< by clip
+    std::vector<std::shared_ptr<const mobb::Tree>> trees;  ///< by clip, and behind them those of members
+    std::vector<std::size_t> members_at{};                 ///< by clip: where those of its members begin in trees
+
+    const std::shared_ptr<const mobb::Tree>& tree(const PlacedAgent& who) const {
+        const auto clip = static_cast<std::size_t>(who.clip);
+        return trees[who.member < 0 ? clip : members_at[clip] + static_cast<std::size_t>(who.member)];
+    }
+};
+
+/// The queries of a scene as a list whose elements are made when asked for (query_at). Of two bodies the two members
+/// are asked that collide first, of those that never do the two that come nearest, or the first that share time.
+class QueryList {
+  public:
+    QueryList(const Scene& scene, const AskedPairs& pairs, const NamedFit& fit)
+        : scene_(&scene), pairs_(&pairs), fit_(&fit) {}
+
+    std::size_t size() const { return scene_->queries.empty() ? pairs_->size() : scene_->queries.size(); }
+    bool empty() const { return size() == 0; }
+    /// 0 <= index < size().
+    SceneQuery operator[](std::size_t index) const;
+
+  private:
+    const Scene* scene_;
+    const AskedPairs* pairs_;
+    const NamedFit* fit_;
 };
 
 struct RecordedQuery;
@@ -72,7 +82,13 @@ class FittedScene {
     const std::shared_ptr<const mobb::Tree>& shared_tree(int clip) const {
         return fits_[in_use_]->trees[static_cast<std::size_t>(clip)];
     }
-    QueryList queries() const { return QueryList(*scene_); }  ///< what is asked; valid as long as this or a copy
+    /// Of a query's side, or of who is drawn: the member's, where its clip has a body.
+    const mobb::Tree& tree(const PlacedAgent& who) const { return *shared_tree(who); }
+    const std::shared_ptr<const mobb::Tree>& shared_tree(const PlacedAgent& who) const {
+        return fits_[in_use_]->tree(who);
+    }
+    /// What is asked; valid as long as this or a copy.
+    QueryList queries() const { return {*scene_, *asked_pairs_, *fits_[in_use_]}; }
     const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 
     /// The cells of what is drawn, in its order; made when asked for. From any thread.
@@ -82,7 +98,7 @@ class FittedScene {
     /// thread.
     std::shared_ptr<const RecordedQuery> recorded(std::size_t query) const;
 
-    mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who.clip), who.placement}; }
+    mobb::PlacedTree placed(const PlacedAgent& who) const { return {tree(who), who.placement}; }
 
     /// Memory for the clips and trees of these fits that `others` do not share.
     std::size_t bytes_beyond(std::span<const std::shared_ptr<const NamedFit>> others) const;
@@ -90,6 +106,7 @@ class FittedScene {
   private:
     std::shared_ptr<const Scene> scene_;
     std::shared_ptr<const std::vector<PlacedAgent>> placed_agents_;
+    std::shared_ptr<const AskedPairs> asked_pairs_;
     struct Grid {
         std::once_flag made;
         std::vector<GridCell> cells;

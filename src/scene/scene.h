@@ -20,13 +20,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
 
-class Importer;      // import/import.h
-class JsonPlace;     // base/json.h
-struct CrowdRun;     // scene/crowd_run.h
+class Importer;   // import/import.h
+class JsonPlace;  // base/json.h
+struct CrowdRun;  // scene/crowd_run.h
+struct Scene;
 struct MotionGraph;  // scene/motion_graph.h
 
 struct Color {
@@ -50,8 +52,19 @@ struct SceneClip {
     std::optional<ClipTurn> turn{};  ///< of one with a source: by which clip and skeleton were bent after the import
     /// Of inline samples of a capture: mobb::digest of what was captured; none: nobody says. See kDigest.
     std::optional<std::uint64_t> digest{};
+    std::vector<mobb::BodyDisk> body{};  ///< of who is more than one disk: in place of the disks of the samples
+    bool own_body = false;               ///< the scene gives it, not the source
+    std::vector<double> headings{};      ///< degrees, of a body, one a sample; empty: as it moves
+    /// Of a body the path of each disk, see make_members: who plays the clip is where any of them is. Else empty.
+    std::vector<mobb::ClipPtr> members{};
     friend bool operator==(const SceneClip&, const SceneClip&) = default;
 };
+
+/// Makes the members anew of clip, body and headings. Throws std::invalid_argument, as mobb::member_of does.
+void make_members(SceneClip& clip);
+
+/// Throws InputError if a clip has a body: "`what` is of single disks".
+void refuse_bodies(const Scene& scene, const std::string& what);
 
 /// ImportWarning::option of the warning that a clip's samples are not those of its digest.
 inline constexpr std::string_view kDigest = "digest";
@@ -61,7 +74,8 @@ struct PlacedAgent {
     std::string name;  ///< the agent's, or the clip's where the query places a clip itself
     int clip = 0;      ///< index into Scene::clips
     mobb::Placement placement;
-    int agent = -1;  ///< index into Scene::agents, or -1
+    int agent = -1;   ///< index into Scene::agents, or -1
+    int member = -1;  ///< of a clip with a body: index into SceneClip::members; -1: the clip itself
     friend bool operator==(const PlacedAgent&, const PlacedAgent&) = default;
 };
 
@@ -73,6 +87,7 @@ struct Agent {
     /// In a scene made from a run: the agent's index in the run, and its play if the scene shows a moment; else -1.
     int run_agent = -1;
     int play = -1;
+    std::string floor{};  ///< of a building: agents of different floors are never asked about; empty: nobody says
     friend bool operator==(const Agent&, const Agent&) = default;
 };
 
@@ -106,17 +121,51 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
-/// The number of queries: the scene's own; without any, all pairs of agents; without agents 0. A run has none: its
-/// collisions are found by choices (crowd/simulation/choice.h) and conflicts (conflicts/conflicts.h).
+/// The floors of the agents as numbers from 1 on, 0 where nobody says; empty where nobody says of any.
+std::vector<int> floors_of(const Scene& scene);
+/// Whether two such numbers are of different floors.
+inline bool are_apart(int floor_a, int floor_b) { return floor_a != floor_b && floor_a != 0 && floor_b != 0; }
+
+/// The pairs of so many agents that are asked, in the order (0,1) (0,2) ... (1,2) ...: all but those of two floors.
+class AskedPairs {
+  public:
+    /// Of the agents of a scene; of a run none.
+    explicit AskedPairs(const Scene& scene);
+
+    std::size_t size() const { return before(agents_); }
+    /// Of an index < size().
+    std::pair<std::size_t, std::size_t> operator[](std::size_t index) const;
+    /// Of a < b; none if they are not asked.
+    std::optional<std::size_t> index_of(std::size_t a, std::size_t b) const;
+
+  private:
+    /// How many pairs come before those whose first agent is `a`.
+    std::size_t before(std::size_t a) const {
+        return before_.empty() ? (agents_ == 0 ? 0 : a * (2 * agents_ - a - 1) / 2) : before_[a];
+    }
+
+    std::size_t agents_;
+    std::vector<int> floors_;
+    std::vector<std::size_t> before_;  ///< by agent, and of the end; empty without floors
+};
+
+/// The number of queries: the scene's own; without any, all pairs of agents of one floor; without agents 0. A run has
+/// none: its collisions are found by choices (crowd/simulation/choice.h) and conflicts (conflicts/conflicts.h).
 std::size_t query_count(const Scene& scene);
-/// The query with that index < query_count(scene); pairs of agents in the order (0,1) (0,2) ... (1,2) ... It is made
-/// when asked for: the pairs of a crowd would fill the memory.
+/// The query with that index < query_count(scene). It is made when asked for: the pairs of a crowd would fill the
+/// memory.
 SceneQuery query_at(const Scene& scene, std::size_t index);
-/// The index of the query that asks agent a against b > a where all pairs are asked.
-std::size_t query_of_pair(const Scene& scene, std::size_t a, std::size_t b);
+/// The same where AskedPairs(scene) are known.
+SceneQuery query_at(const Scene& scene, const AskedPairs& pairs, std::size_t index);
 
 /// The agents; of a scene without agents every clip, unplaced.
 std::vector<PlacedAgent> placed_agents(const Scene& scene);
+/// " (disk 2)" of a member, else nothing.
+std::string disk_words(const PlacedAgent& who);
+/// The path of one of them: the clip, or its member.
+const mobb::ClipPtr& path_of(const Scene& scene, const PlacedAgent& who);
+/// The same one as each member of its clip's body; without a body as it is.
+std::vector<PlacedAgent> members_of(const Scene& scene, const PlacedAgent& who);
 
 /// Called during long work with how much is done, of how much in all. It may throw to end the work; the exception
 /// passes through. It may be empty.

@@ -98,10 +98,14 @@ class ImpliedQueries {
         const auto agent = [&](int before) {
             return static_cast<std::size_t>(before) + static_cast<std::size_t>(others);
         };
-        return static_cast<int>(query_of_pair(scene, agent(pair->second.a), agent(pair->second.b)));
+        return asked(AskedPairs(scene).index_of(agent(pair->second.a), agent(pair->second.b)));
     }
 
   private:
+    static std::optional<int> asked(const std::optional<std::size_t>& index) {
+        return index ? std::optional(static_cast<int>(*index)) : std::nullopt;
+    }
+
     struct Pair {
         int a = -1, b = -1;  ///< agents
     };
@@ -261,6 +265,9 @@ void remove_agent(Scene& scene, int agent) {
 
 std::size_t add_query(Scene& scene, int a, int b) {
     if (a == b) throw std::invalid_argument("an agent cannot be queried against itself");
+    const std::string &floor_a = agent_at(scene, a).floor, &floor_b = agent_at(scene, b).floor;
+    if (!floor_a.empty() && !floor_b.empty() && floor_a != floor_b)
+        throw std::invalid_argument("the two are on different floors, where they never meet");
     if (scene.queries.empty() && scene.agents.size() > 1) make_queries_explicit(scene);
     const auto side = [&](int agent) {
         const Agent& of = agent_at(scene, agent);
@@ -286,7 +293,8 @@ void make_queries_explicit(Scene& scene) {
     std::vector<SceneQuery> queries;
     const std::size_t count = query_count(scene);
     queries.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) queries.push_back(query_at(scene, i));
+    const AskedPairs pairs(scene);
+    for (std::size_t i = 0; i < count; ++i) queries.push_back(query_at(scene, pairs, i));
     scene.queries = std::move(queries);
 }
 

@@ -1,4 +1,5 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
+#include <base/budget.h>
 #include <base/file.h>
 #include <base/json.h>
 #include <base/sentences.h>
@@ -248,7 +249,7 @@ class SceneReader {
             scene_.graph = std::make_shared<MotionGraph>(
                 read_graph(*graph, [this](const JsonPlace& clip) { return clip_names_.find(clip, "clip"); }));
         }
-        if (scene_.graph) check_turned_clips();
+        if (scene_.graph) check_moved_clips(clips);
         if (const auto agents = root_.find("agents")) {
             for (int i = 0; i < agents->size(); ++i) scene_.agents.push_back(read_agent((*agents)[i]));
         }
@@ -291,6 +292,8 @@ class SceneReader {
         keys.push_back("turn");
         keys.push_back("samples");
         keys.push_back("digest");
+        keys.push_back("body");
+        keys.push_back("headings");
         place.allow_only(keys);
         if (place.find("source")) {
             read_source(place, clip);
@@ -305,7 +308,49 @@ class SceneReader {
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
+        read_body(place, clip);
         return clip;
+    }
+
+    /// What the scene says of a clip's body, over what its source does.
+    void read_body(const JsonPlace& place, SceneClip& clip) {
+        const auto body = place.find("body");
+        if (body) {
+            if (const auto radius = place.find("radius"))
+                radius->fail("a clip has a radius or a body, not both; remove one");
+            clip.body = read_disks(*body);
+            clip.own_body = true;
+        }
+        if (const auto headings = place.find("headings")) clip.headings = read_headings(*headings, place, clip);
+        // A radius that is asked for is everyone's.
+        if (overrides_.radius && clip.source) clip.body.clear();
+        if (clip.body.empty()) return;
+        if (!bodies_.try_add(clip.body.size() * clip.clip->samples().size_bytes()))
+            (body ? *body : place).fail("with this one the bodies of the scene take too much memory; leave disks out");
+        const auto make = [&] { make_members(clip); };
+        body ? body->attempt(make) : place.attempt(make);
+    }
+
+    static std::vector<mobb::BodyDisk> read_disks(const JsonPlace& place) {
+        const auto most = static_cast<int>(mobb::kMaxBodyDisks);
+        if (place.size() == 0 || place.size() > most)
+            place.fail("a body has from 1 to " + std::to_string(most) + " disks; leave it out for one at the samples");
+        std::vector<mobb::BodyDisk> out;
+        place.each([&](const JsonPlace& disk) {
+            disk.require_size(3, "[forward, left, r] in metres");
+            out.push_back({disk[0].number(-mobb::kMaxLength, mobb::kMaxLength),
+                           disk[1].number(-mobb::kMaxLength, mobb::kMaxLength), disk[2].number(0, mobb::kMaxLength)});
+        });
+        return out;
+    }
+
+    static std::vector<double> read_headings(const JsonPlace& place, const JsonPlace& of, const SceneClip& clip) {
+        if (clip.source) place.fail("only samples have headings; a source has its own, so remove them");
+        if (!of.find("body")) place.fail("they are those of a body; give a body, or remove them");
+        place.require_size(clip.clip->count(), "degrees, one a sample");
+        std::vector<double> out;
+        place.each([&](const JsonPlace& heading) { out.push_back(heading.number(-1e9, 1e9)); });
+        return out;
     }
 
     /// Of the samples with the motion that the file says.
@@ -327,8 +372,12 @@ class SceneReader {
         place.attempt([&] { bend(clip, {deg, seconds.number()}); });
     }
 
-    /// A turned move plays a clip that turns as far; of samples it cannot be told.
-    void check_turned_clips() const {
+    /// Whoever plays moves is one disk. A turned move plays a clip that turns as far; of samples it cannot be told.
+    void check_moved_clips(const JsonPlace& clips) const {
+        for (const GraphMove& move : scene_.graph->moves) {
+            if (clip_has_body(move.clip))
+                clips.member(move.clip).fail("a motion graph plays it, and its clips have no body; remove the body");
+        }
         const JsonPlace graph = root_.require("graph");
         const JsonPlace moves = graph.require("moves");
         for (int i = 0; i < moves.size(); ++i)
@@ -383,6 +432,8 @@ class SceneReader {
             clip.facts = std::move(imported.front().facts);
             clip.skeleton = std::move(imported.front().skeleton);
             clip.start = imported.front().start;
+            clip.body = std::move(imported.front().body);
+            clip.headings = std::move(imported.front().headings);
             append(clip.facts.warnings, warnings);
         } catch (const InputError& error) {
             source.fail(error.what());
@@ -436,7 +487,7 @@ class SceneReader {
     }
 
     Agent read_agent(const JsonPlace& place) {
-        place.allow_only({"name", "clip", "translate", "rotate_deg", "start", "color"});
+        place.allow_only({"name", "clip", "translate", "rotate_deg", "start", "color", "floor"});
         const JsonPlace name = place.require("name");
         if (name.string().empty()) name.fail("an agent needs a name");
         if (!agent_names_.add(name.string()))
@@ -446,6 +497,10 @@ class SceneReader {
         agent.clip = clip_names_.find(place.require("clip"), "clip");
         agent.placement = read_placement(place, clip_at(agent.clip));
         if (const auto color = place.find("color")) agent.color = read_color(*color);
+        if (const auto floor = place.find("floor")) {
+            agent.floor = floor->is_number() ? format_double(floor->number()) : floor->string();
+            if (agent.floor.empty()) floor->fail("a floor has a name or a number; remove it, or give one");
+        }
         return agent;
     }
 
@@ -454,6 +509,7 @@ class SceneReader {
         SceneQuery query;
         query.a = read_placed_agent(place.require("a"));
         query.b = read_placed_agent(place.require("b"));
+        check_floors(place, query);
         const int samples_a = clip_of(query.a).count();
         const int samples_b = clip_of(query.b).count();
         if (const auto expect = place.find("expect")) query.expect = read_expectation(*expect, samples_a, samples_b);
@@ -463,6 +519,15 @@ class SceneReader {
             events->fail("it counts the events of a trace; give the trace, or remove this");
         }
         return query;
+    }
+
+    void check_floors(const JsonPlace& place, const SceneQuery& query) const {
+        if (query.a.agent < 0 || query.b.agent < 0) return;
+        const std::string& floor_a = scene_.agents[static_cast<std::size_t>(query.a.agent)].floor;
+        const std::string& floor_b = scene_.agents[static_cast<std::size_t>(query.b.agent)].floor;
+        if (floor_a.empty() || floor_b.empty() || floor_a == floor_b) return;
+        place.fail(in_quotes(query.a.name) + " is on floor " + in_quotes(floor_a) + " and " + in_quotes(query.b.name) +
+                   " on floor " + in_quotes(floor_b) + ": they never meet; remove the query");
     }
 
     /// Of a recording that stopped, `events` says how many there were.
@@ -533,6 +598,7 @@ class SceneReader {
         }
     }
 
+    bool clip_has_body(int index) const { return !scene_.clips[static_cast<std::size_t>(index)].body.empty(); }
     SceneClip& clip_at(int index) { return scene_.clips[static_cast<std::size_t>(index)]; }
     const mobb::Clip& clip_of(const PlacedAgent& who) const {
         return *scene_.clips[static_cast<std::size_t>(who.clip)].clip;
@@ -548,6 +614,7 @@ class SceneReader {
     NameTable clip_names_;
     NameTable agent_names_;
     std::set<std::array<std::string, 3>> sources_;  ///< file, animation and id
+    Spent bodies_;                                  ///< what members take
     MadeSamples made_;                              ///< of clips with a source
     Scene scene_;
 };
@@ -556,6 +623,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
     Scene scene;
     std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
+    Spent bodies;
     import_each(file, options, [&](ImportedClip&& imported) {
         SceneClip clip{imported.name,
                        file.filename().string(),
@@ -564,6 +632,11 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
                        std::move(imported.facts),
                        std::move(imported.skeleton),
                        imported.start};
+        clip.body = std::move(imported.body);
+        clip.headings = std::move(imported.headings);
+        if (!bodies.try_add(clip.body.size() * clip.clip->samples().size_bytes()))
+            throw InputError(file, "its bodies take too much memory; give --trim or --id");
+        at_place(file.string(), "clip " + in_quotes(clip.name), [&] { make_members(clip); });
         append(clip.facts.warnings, warnings);
         if (!imported.id.empty()) clip.options.id = imported.id;
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
@@ -572,6 +645,7 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
+            scene.agents.back().floor = std::move(imported.floor);
         }
         scene.clips.push_back(std::move(clip));
     });

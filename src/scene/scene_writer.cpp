@@ -82,6 +82,10 @@ void write_warp(JsonWriter& out, const ClipWarp& warp, const PoseNames& poses) {
     out.end_object();
 }
 
+void write_body(JsonWriter& out, const SceneClip& clip) {
+    out.list("body", clip.body, [&](const mobb::BodyDisk& disk) { out.tuple(disk.forward, disk.left, disk.r); });
+}
+
 void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, bool inline_samples) {
     out.key(clip.name);
     if (clip.source && !inline_samples) {
@@ -95,12 +99,15 @@ void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, 
             out.key("turn");
             out.row("deg", clip.turn->deg, "seconds", clip.turn->seconds);
         }
+        if (clip.own_body) write_body(out, clip);
         out.end_object();
         return;
     }
     out.begin_object();
     out.members("dt", clip.clip->dt(), "motion", mobb::name(clip.clip->motion()));
     if (clip.digest) out.member("digest", digest_text(*clip.digest));
+    if (!clip.body.empty()) write_body(out, clip);
+    if (!clip.headings.empty()) out.values("headings", clip.headings);
     out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.tuple(disk.x, disk.y, disk.r); });
     out.end_object();
 }
@@ -115,6 +122,7 @@ void write_agent(JsonWriter& out, const Scene& scene, const Agent& agent) {
     out.member("clip", scene.clips[static_cast<std::size_t>(agent.clip)].name);
     write_placement(out, agent.placement);
     if (agent.color) out.member("color", to_string(*agent.color));
+    if (!agent.floor.empty()) out.member("floor", agent.floor);
     out.end_object();
 }
 

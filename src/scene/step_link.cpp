@@ -92,7 +92,7 @@ void check_step(const Scene& scene, const StepLink& link) {
     }
     two.queries = {asked};
     const FittedScene fitted(two, two.fit);
-    const int steps = record(fitted, asked).trace.size();
+    const int steps = record(fitted, fitted.queries()[0]).trace.size();
     if (link.step < steps) return;
     refuse_link(
         scene, link,

@@ -164,6 +164,26 @@ TEST_F(MergeCommand, OfPlansToo) {
               run_program({"conflicts", file, "--json"}).out);
 }
 
+TEST_F(MergeCommand, OfBodiesOnFloorsToo) {
+    std::string clips, agents;
+    for (int i = 0; i < 40; ++i) {
+        const std::string name = "\"a" + std::to_string(i) + '"', x = std::to_string(0.5 * (i * 7 % 17));
+        const std::string y = std::to_string(0.5 * (i * 5 % 13)), to = std::to_string(0.5 * (i * 11 % 19));
+        clips += (i > 0 ? ", " : "") + name + R"(: {"dt": 1, "motion": "linear", "body": [[0.5,0,0.3],[-0.5,0,0.3]],
+            "samples": [[)" +
+                 x + ',' + y + ",1],[" + to + ',' + x + ",1],[" + y + ',' + to + ",1]]}";
+        agents += (i > 0 ? ", " : "") + (R"({"name": )" + name) + R"(, "clip": )" + name +
+                  (i % 3 > 0 ? R"(, "floor": )" + std::to_string(i % 3) : "") + "}";
+    }
+    const std::string file = folder.write("bodies.json", "{\"clips\": {" + clips + "}, \"agents\": [" + agents + "]}");
+    for (const std::string option : {"--json", "--csv"}) {
+        const std::vector<std::string> command{"conflicts", file, "--within", "0.2"};
+        const Result merged = run_program(merge(parts(command, 6), option));
+        EXPECT_EQ(merged.out, run_program(with(command, {option})).out);
+        EXPECT_GT(merged.out.size(), 500u);
+    }
+}
+
 TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
     const std::string file = crowd();
     std::vector<std::string> files = parts({"conflicts", file}, 3);

@@ -98,10 +98,11 @@ std::optional<Bounds> box_of(const Workspace& workspace, const Selection& select
         if (!all && index != agent.index && of_clip != &clip.clip()) continue;
         if (selected.kind == Selection::Kind::node) {
             for (const glm::dvec3& corner : corners_of_node(agent.placed, selected.index)) bounds.add(corner);
-        } else if (selected.kind == Selection::Kind::sample) {
-            add_samples(bounds, clip, {selected.index, 1});
         } else {
-            add_samples(bounds, clip, {0, clip.count()});
+            const bool is_sample = selected.kind == Selection::Kind::sample;
+            const mobb::SampleRange range =
+                is_sample ? mobb::SampleRange{selected.index, 1} : mobb::SampleRange{0, clip.count()};
+            for (const mobb::PlacedClip& path : agent.paths()) add_samples(bounds, path, range);
         }
     }
     if (bounds.min.x > bounds.max.x) return std::nullopt;
@@ -122,7 +123,10 @@ std::optional<Bounds> box_of_slab(const Workspace& workspace) {
         const mobb::PlacedClip& clip = agent.clip();
         const int first = mobb::first_ending_after(clip, 0, clip.count(), view.slab->least);
         const int end = mobb::first_ending_after(clip, 0, clip.count(), view.slab->most) + 1;
-        if (clip.time(0) <= view.slab->most) add_samples(bounds, clip, {first, std::min(end, clip.count()) - first});
+        for (const mobb::PlacedClip& path : agent.paths()) {
+            if (clip.time(0) <= view.slab->most)
+                add_samples(bounds, path, {first, std::min(end, clip.count()) - first});
+        }
         if (!view.frame_boxes || view.query || !view.boxes) continue;
         for (const int node : shown_nodes(agent.placed.tree(), view.levels)) {
             if (agent.placed.end(agent.placed.node(node)) <= view.slab->least ||

@@ -262,7 +262,7 @@ void add_node(Collector& out, const Session& session, const std::string& text) {
         const auto [name, place] = name_and_word(text, "the node");
         for (const PlacedAgent& who : session.workspace.fitted().placed_agents()) {
             if (!std::ranges::equal(who.name, name, {}, lower_letter, lower_letter)) continue;
-            static_cast<void>(node_at(session.workspace.fitted().tree(who.clip), place));
+            static_cast<void>(node_at(session.workspace.fitted().tree(who), place));
             const std::string named = who.name + ' ' + std::string(place);
             out.add("go.node", named, named, "Node", {{named}});
         }

@@ -51,7 +51,7 @@ void reasons_of_sample(Workspace& workspace, Keys& keys, const std::string& text
         throw std::invalid_argument("the side cannot be " + in_quotes(std::string(side)) + ": give a or b");
     const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(*workspace.view().query)];
     const int of = side == "a" ? 0 : 1;
-    const int last = workspace.fitted().tree(of == 0 ? query.a.clip : query.b.clip).clip().count() - 1;
+    const int last = workspace.fitted().tree(of == 0 ? query.a : query.b).clip().count() - 1;
     ask_about_sample(workspace, of, whole_number_in(index, "the sample", 0, last));
 }
 

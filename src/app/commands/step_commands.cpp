@@ -82,8 +82,8 @@ void to_counted(Workspace& workspace, QueryInspector& queries, Notifications& no
     entered(workspace, queries, next ? kFirst : kEnd);
     const mobb::Trace& trace = workspace.recorded()->trace;
     const SceneQuery query = workspace.fitted().queries()[static_cast<std::size_t>(*workspace.view().query)];
-    const mobb::Tree& a = workspace.fitted().tree(query.a.clip);
-    const mobb::Tree& b = workspace.fitted().tree(query.b.clip);
+    const mobb::Tree& a = workspace.fitted().tree(query.a);
+    const mobb::Tree& b = workspace.fitted().tree(query.b);
     const int by = next ? 1 : -1;
     for (int event = std::min(from, trace.size()) + by; event >= 0 && event < trace.size(); event += by) {
         if (is_counted(of, trace, event, a, b)) return workspace.go_to_event(event);

@@ -177,7 +177,7 @@ void copy_measured(Session& session) {
 int depth_in_view(const Workspace& workspace) {
     int depth = 1;
     for (const PlacedAgent& who : workspace.fitted().placed_agents()) {
-        depth = std::max(depth, workspace.fitted().tree(who.clip).depth());
+        depth = std::max(depth, workspace.fitted().tree(who).depth());
     }
     return depth;
 }
@@ -288,7 +288,7 @@ void set_time(Workspace& workspace, double time) {
 double sample_time(const Workspace& workspace) {
     double dt = std::numeric_limits<double>::max();
     for_each_agent_in_view(workspace.fitted(), workspace.view(), [&](const PlacedAgent& who) {
-        dt = std::min(dt, workspace.fitted().tree(who.clip).clip().dt());
+        dt = std::min(dt, workspace.fitted().tree(who).clip().dt());
     });
     return dt;
 }

@@ -49,7 +49,8 @@ std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key) {
         const std::size_t first = index_of(a);
         const std::size_t second = index_of(b);
         if (first >= second || second >= scene.agents.size() || fitted.queries().empty()) return std::nullopt;
-        return static_cast<int>(query_of_pair(scene, first, second));
+        const std::optional<std::size_t> index = AskedPairs(scene).index_of(first, second);
+        return index ? std::optional(static_cast<int>(*index)) : std::nullopt;
     }
     int left = same;
     for (std::size_t i = 0; i < scene.queries.size(); ++i) {
@@ -159,7 +160,7 @@ void keep_part(ViewState& view, const FittedScene& now, const FittedScene& befor
     const auto who = placed_agent_of(now, part.path);
     if (!who || !exists(before, part)) return;  // clamped() takes it out
     const mobb::Node& was = before.tree(placed_agent_of(before, part.path)->clip).node(part.index);
-    const auto& nodes = now.tree(who->clip).nodes();
+    const auto& nodes = now.tree(*who).nodes();
     const auto same = std::ranges::find_if(
         nodes, [&](const mobb::Node& node) { return node.first == was.first && node.count == was.count; });
     if (same == nodes.end()) return view.subtree.reset();

@@ -9,9 +9,9 @@ namespace {
 
 AgentRef path_of_side(const FittedScene& fitted, int query, int side) {
     const SceneQuery asked = fitted.queries()[static_cast<std::size_t>(query)];
-    const int agent = (side == 0 ? asked.a : asked.b).agent;
-    // With agents, the placed agents are these in their order.
-    return agent >= 0 ? AgentRef{agent, -1, 0} : AgentRef{-1, query, side};
+    const PlacedAgent& who = side == 0 ? asked.a : asked.b;
+    // With agents, the placed agents are these in their order. Of a body it is one of its disks that is asked.
+    return who.agent >= 0 && who.member < 0 ? AgentRef{who.agent, -1, 0} : AgentRef{-1, query, side};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ bool exists(const FittedScene& fitted, const Selection& selection) {
     const auto agent = placed_agent_of(fitted, selection.path);
     if (!agent) return false;
     if (selection.kind == Selection::Kind::path) return true;
-    const mobb::Tree& tree = fitted.tree(agent->clip);
+    const mobb::Tree& tree = fitted.tree(*agent);
     return within(selection.kind == Selection::Kind::node ? tree.nodes().size()
                                                           : static_cast<std::size_t>(tree.clip().count()));
 }
@@ -68,8 +68,7 @@ bool has_projection(const FittedScene& fitted, const ViewState& view) {
     const DiskProjection& asked = *view.projection;
     const AgentRef agent = agent_in_view(fitted, view, asked.agent);
     if (!exists(fitted, {Selection::Kind::node, agent, asked.node})) return false;
-    const mobb::Node& node =
-        fitted.tree(placed_agent_of(fitted, agent)->clip).nodes()[static_cast<std::size_t>(asked.node)];
+    const mobb::Node& node = fitted.tree(*placed_agent_of(fitted, agent)).nodes()[static_cast<std::size_t>(asked.node)];
     return asked.sample >= node.first && asked.sample < node.end();
 }
 
@@ -102,7 +101,7 @@ Selection remapped(const Selection& selection, const FittedScene& before, const 
     if (selection.kind == Selection::Kind::node) {
         const auto was = placed_agent_of(before, selection.path);
         const auto is = placed_agent_of(now, selection.path);
-        if (was && is && &before.tree(was->clip) != &now.tree(is->clip)) {
+        if (was && is && &before.tree(*was) != &now.tree(*is)) {
             return {Selection::Kind::path, selection.path, -1};
         }
     }

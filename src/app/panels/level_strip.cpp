@@ -175,7 +175,7 @@ void LevelStrip::draw(Ui& ui, int clip, const ChartAxis& time, float most_height
     const FittedScene& fitted = ui.workspace.fitted();
     const auto who = placed_agent_of(fitted, *path);
     const ViewState& view = ui.workspace.view();
-    const mobb::Tree& tree = fitted.tree(who->clip);
+    const mobb::Tree& tree = fitted.tree(*who);
     const auto depth = static_cast<float>(tree.depth());
     const float heading = ui.style.caption->FontSize + ui.px(1), below = ui.px(kBelow);
     const float row = std::floor(std::min((most_height - heading - below) / depth, ui.px(kMostRow)));
@@ -184,7 +184,7 @@ void LevelStrip::draw(Ui& ui, int clip, const ChartAxis& time, float most_height
     const NodeFieldInfo& field = strip_field(view);
     const std::span<const double> values = ui.session.figures.column(clip, field.field);
     const mobb::PlacedTree placed = fitted.placed(*who);
-    Key key{.tree = fitted.shared_tree(who->clip), .figure = colored_figure(field)};
+    Key key{.tree = fitted.shared_tree(*who), .figure = colored_figure(field)};
     // Of its own, in which all levels have room: on the scale of one level the others would have one colour.
     key.figure.whole_range = true;
     if (color_figure(view.color_by) == &field) key.chosen = view.color_range;

@@ -47,7 +47,7 @@ void node_links(Ui& ui) {
     if (selected.kind != Selection::Kind::node && selected.kind != Selection::Kind::sample) return;
     const auto who = placed_agent_of(ui.workspace.fitted(), selected.path);
     if (!who) return;
-    const mobb::Tree& tree = ui.workspace.fitted().tree(who->clip);
+    const mobb::Tree& tree = ui.workspace.fitted().tree(*who);
     const bool is_node = selected.kind == Selection::Kind::node;
     const int node = is_node ? selected.index : leaf_of_sample(tree, selected.index);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(2), ImGui::GetStyle().ItemSpacing.y});

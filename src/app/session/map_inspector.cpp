@@ -24,8 +24,8 @@ MapInspector::Key MapInspector::key_now() const {
     const FittedScene& fitted = workspace_.fitted();
     const SceneQuery asked = query();
     Key key;
-    key.a = fitted.tree(asked.a.clip).shared_clip();
-    key.b = fitted.tree(asked.b.clip).shared_clip();
+    key.a = fitted.tree(asked.a).shared_clip();
+    key.b = fitted.tree(asked.b).shared_clip();
     key.place_a = asked.a.placement;
     key.order = axes();
     key.order.show = choice.show;
@@ -37,8 +37,8 @@ MapInspector::Key MapInspector::key_now() const {
         choose_ranges(fitted.placed(asked.a).placed_clip(), mobb::PlacedClip(*key.b, key.reference), key.order);
     }
     if (choice.show == MapShow::tests) {
-        key.tree_a = fitted.shared_tree(asked.a.clip);
-        key.tree_b = fitted.shared_tree(asked.b.clip);
+        key.tree_a = fitted.shared_tree(asked.a);
+        key.tree_b = fitted.shared_tree(asked.b);
     }
     return key;
 }
@@ -66,6 +66,7 @@ void MapInspector::start(const Key& key) {
     job_ = std::make_unique<Job>(
         "Mapping placements",
         [fitted = workspace_.shown(), asked, order = key.order, made = made_](JobControl& control) -> Job::Finish {
+            refuse_bodies(fitted->scene(), "a map");
             const auto begun = std::chrono::steady_clock::now();
             const auto publish = [&](const PlacementMap& map) {
                 {

@@ -33,6 +33,7 @@ SweepOrder SweepInspector::order() const {
 }
 
 void SweepInspector::start() {
+    refuse_bodies(workspace_.document().fitted->scene(), "a sweep");
     auto sweep = std::make_shared<Sweep>();
     sweep->scene = workspace_.document().fitted->shared_scene();
     sweep->kind = workspace_.workload();

@@ -90,7 +90,7 @@ std::vector<MenuEntry> node_menu(const Session& session) {
     const auto who = placed_agent_of(session.workspace.fitted(), session.workspace.selection.path);
     if (who) {
         const std::string level =
-            std::to_string(session.workspace.fitted().tree(who->clip).level(session.workspace.selection.index));
+            std::to_string(session.workspace.fitted().tree(*who).level(session.workspace.selection.index));
         menu.push_back({"view.level", level, "Show level " + level + " alone"});
     }
     const std::optional<int> side =
@@ -98,7 +98,7 @@ std::vector<MenuEntry> node_menu(const Session& session) {
             ? index_in_view(session.workspace.fitted(), session.workspace.view(), session.workspace.selection.path)
             : std::nullopt;
     if (who && side) {
-        const mobb::Tree& tree = session.workspace.fitted().tree(who->clip);
+        const mobb::Tree& tree = session.workspace.fitted().tree(*who);
         menu.push_back(
             {"breakpoint.add", node_filter(tree, *side, session.workspace.selection.index), "Break when it is tested"});
     }

@@ -32,7 +32,7 @@ std::optional<DrawnAgent> owner_in_view(const SceneView& seen, const Selection& 
     const auto who = placed_agent_of(fitted, what.path);
     if (!who || is_hidden(seen, *who)) return std::nullopt;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
-    drawn.placed = {fitted.tree(who->clip), shown_placement(fitted, seen.view, *who)};
+    drawn.placed = {fitted.tree(*who), shown_placement(fitted, seen.view, *who)};
     return drawn;
 }
 

@@ -328,7 +328,7 @@ void Viewport::update_highlights(const Ui& ui) {
         const FittedScene& fitted = ui.workspace.fitted();
         if (drag_ == Drag::handle && moved_) {
             if (const auto held = placed_agent_of(fitted, {handle_drag_.agent, -1, 0})) {
-                const mobb::PlacedTree before(fitted.tree(held->clip), handle_drag_.start);
+                const mobb::PlacedTree before(fitted.tree(*held), handle_drag_.start);
                 add_ghost(*list_, before.placed_clip(), scale);
             }
         }

@@ -164,7 +164,7 @@ std::optional<DrawnNode> part_named(const FittedScene& fitted, const std::string
     const auto who = std::ranges::find(agents, name, &PlacedAgent::name);
     if (who == agents.end()) throw refuse("there is no agent " + in_quotes(name));
     try {
-        const int node = app::node_at(fitted.tree(who->clip), std::string_view(text).substr(colon + 1));
+        const int node = app::node_at(fitted.tree(*who), std::string_view(text).substr(colon + 1));
         return DrawnNode{static_cast<int>(who - agents.begin()), node};
     } catch (const std::invalid_argument& error) {
         throw refuse(error.what());

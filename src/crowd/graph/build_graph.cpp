@@ -542,6 +542,7 @@ Scene recordings_of_clips(const Scene& scene, const std::filesystem::path& scene
 
 BuiltGraph make_graph(Scene recordings, const GraphOptions& options, const std::string& place,
                       const GraphProgress& progress) {
+    refuse_bodies(recordings, "a motion graph");
     if (options.whole) {
         recordings.graph = std::make_shared<MotionGraph>(graph_of_whole_clips(recordings));
         BuiltGraph out{std::move(recordings), {}};

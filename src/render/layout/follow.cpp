@@ -28,7 +28,7 @@ std::vector<mobb::PlacedClip> clips_of(const FittedScene& fitted, const ViewStat
     std::vector<mobb::PlacedClip> out;
     if (!scene.crowd) {
         for (const PlacedAgent& who : fitted.placed_agents()) {
-            if (who.name == name) return {{fitted.tree(who.clip).clip(), shown_placement(fitted, view, who)}};
+            if (who.name == name) return {{fitted.tree(who).clip(), shown_placement(fitted, view, who)}};
         }
         return out;
     }

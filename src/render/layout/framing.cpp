@@ -98,7 +98,9 @@ void add_samples(Bounds& bounds, const mobb::PlacedClip& clip, mobb::SampleRange
 
 Bounds bounds_of(std::span<const DrawnAgent> agents) {
     Bounds bounds;
-    for (const DrawnAgent& agent : agents) add_samples(bounds, agent.clip(), {0, agent.clip().count()});
+    for (const DrawnAgent& agent : agents) {
+        for (const mobb::PlacedClip& path : agent.paths()) add_samples(bounds, path, {0, path.count()});
+    }
     return bounds;
 }
 

@@ -335,10 +335,13 @@ void add_floor_map(DrawList& list, std::span<const DrawnAgent> agents, const Flo
     for (const DrawnAgent& agent : agents) {
         const std::optional<int> sample = sample_at(agent, time);
         if (!sample || agent.hidden) continue;
-        const mobb::Disk disk = mobb::swept(agent.clip(), *sample).at(time);
-        const glm::vec2 middle = at(disk.x, disk.y);
-        const float r = std::max(static_cast<float>(disk.r) * pixels, 2.5f * scale);
-        list.marks.push_back({{middle - r, middle + r}, r, with_alpha(agent.color, 0.9f), list.palette.text, scale});
+        for (const mobb::PlacedClip& path : agent.paths()) {
+            const mobb::Disk disk = mobb::swept(path, *sample).at(time);
+            const glm::vec2 middle = at(disk.x, disk.y);
+            const float r = std::max(static_cast<float>(disk.r) * pixels, 2.5f * scale);
+            list.marks.push_back(
+                {{middle - r, middle + r}, r, with_alpha(agent.color, 0.9f), list.palette.text, scale});
+        }
     }
 }
 

@@ -18,8 +18,9 @@ constexpr float kDimmedLines = 0.4f;  // of the text's colour
 constexpr float kOutline = 0.7f;      // opacity of what is left of who is not in the foreground
 constexpr float kEarly = 0.24f;  // towards the background at the beginning of a path, so that later disks stand out
 
-Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus& focus, int sample) {
-    if (focus.hit == sample) return palette.hit;
+Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const mobb::PlacedClip& path, const PathFocus& focus,
+                int sample) {
+    if (focus.hit == sample && agent.is_asked(path)) return palette.hit;
     const bool in_focus = !focus.range || (sample >= focus.range->first && sample < focus.range->end());
     if (focus.colors) {
         const Rgba figure = (*focus.colors)[static_cast<std::size_t>(sample)];
@@ -34,6 +35,11 @@ Rgba disk_color(const Palette& palette, const DrawnAgent& agent, const PathFocus
 /// In the drawing order: agents side by side, 2^32 samples of each.
 std::int64_t order_index(const DrawnAgent& agent, int sample) {
     return (static_cast<std::int64_t>(agent.index) << 32) + sample;
+}
+
+/// Behind the last of the samples that are drawn: that of a linear clip is the end of the disk before it.
+int drawn_end(const mobb::PlacedClip& path, mobb::SampleRange shown) {
+    return std::min(shown.end(), path.clip().steps());
 }
 
 /// What the ring around a disk is drawn around.
@@ -90,44 +96,49 @@ Rgba line_color_of(const DrawnAgent& agent, const Palette& palette) {
 }
 
 void add_disks(DrawList& list, const DrawnAgent& agent, const PathFocus& focus) {
-    const mobb::PlacedClip& clip = agent.clip();
     const mobb::SampleRange shown = agent.samples();
     std::vector<DiskInstance>& disks = list.disks.edit();
-    const float height = static_cast<float>(clip.clip().dt() * list.space.time_height);
-    const auto centre = [&](const mobb::Disk& disk, int i) { return list.space.point(disk.x, disk.y, clip.time(i)); };
-    // The last sample of a linear clip is the end of the disk before it.
-    const int end = std::min(shown.end(), clip.clip().steps());
-    for (int i = shown.first; i < end; ++i) {
-        const mobb::Disk disk = clip.disk(i);
-        DiskInstance instance;
-        instance.base = centre(disk, i);
-        instance.radius = static_cast<float>(disk.r);
-        instance.stand_upright(height);
-        if (clip.is_linear()) {
-            // What the next one's base is computed from, too: the two faces are one to the last bit.
-            const mobb::Disk at_end = clip.disk_at_end(i);
-            instance.top = centre(at_end, i + 1);
-            instance.top_radius = static_cast<float>(at_end.r);
+    const float height = static_cast<float>(agent.clip().clip().dt() * list.space.time_height);
+    for (const mobb::PlacedClip& path : agent.paths()) {
+        const auto centre = [&](const mobb::Disk& disk, int i) {
+            return list.space.point(disk.x, disk.y, path.time(i));
+        };
+        const int end = drawn_end(path, shown);
+        for (int i = shown.first; i < end; ++i) {
+            const mobb::Disk disk = path.disk(i);
+            DiskInstance instance;
+            instance.base = centre(disk, i);
+            instance.radius = static_cast<float>(disk.r);
+            instance.stand_upright(height);
+            if (path.is_linear()) {
+                // What the next one's base is computed from, too: the two faces are one to the last bit.
+                const mobb::Disk at_end = path.disk_at_end(i);
+                instance.top = centre(at_end, i + 1);
+                instance.top_radius = static_cast<float>(at_end.r);
+            }
+            instance.color = disk_color(list.palette, agent, path, focus, i);
+            instance.id = {agent.index, ObjectId::Kind::disk, i};
+            instance.order = {DrawLayer::surroundings, 0, order_index(agent, i)};
+            disks.push_back(instance);
         }
-        instance.color = disk_color(list.palette, agent, focus, i);
-        instance.id = {agent.index, ObjectId::Kind::disk, i};
-        instance.order = {DrawLayer::surroundings, 0, order_index(agent, i)};
-        disks.push_back(instance);
     }
 }
 
 std::size_t color_disks(std::vector<DiskInstance>& disks, std::size_t first, const Palette& palette,
                         const DrawnAgent& agent, const PathFocus& focus) {
-    for (; first < disks.size() && disks[first].id.agent == agent.index; ++first) {
-        disks[first].color = disk_color(palette, agent, focus, disks[first].id.index);
+    const mobb::SampleRange shown = agent.samples();
+    for (const mobb::PlacedClip& path : agent.paths()) {
+        const int end = drawn_end(path, shown);
+        for (int i = shown.first; i < end; ++i) disks[first++].color = disk_color(palette, agent, path, focus, i);
     }
     return first;
 }
 
 void add_thin_path(DrawList& list, const DrawnAgent& agent, float width) {
-    const mobb::PlacedClip& clip = agent.clip();
     double widest = 0;
-    for (const mobb::Disk& disk : clip.clip().samples()) widest = std::max(widest, disk.r);
+    for (const mobb::PlacedClip& path : agent.paths()) {
+        for (const mobb::Disk& disk : path.clip().samples()) widest = std::max(widest, disk.r);
+    }
     const float pixels = list.projection.pixels_per_metre(glm::vec3(0));
     // 0: the scene's middle lies behind the eye, which therefore is near.
     if (pixels <= 0 || static_cast<float>(widest) * pixels > 0.7f) return;

@@ -50,6 +50,10 @@ FarthestJoint farthest_joint(const Skeleton& skeleton, int sample) {
 void find_pairs(Moment& moment) {
     std::vector<Body>& bodies = moment.bodies;
     const auto disk = [&](int i) -> const mobb::Disk& { return bodies[static_cast<std::size_t>(i)].disk; };
+    const auto agents_of = [&](const BodyPair& pair) {
+        return std::pair(bodies[static_cast<std::size_t>(pair.a)].agent,
+                         bodies[static_cast<std::size_t>(pair.b)].agent);
+    };
     std::vector<int> by_x(bodies.size());
     std::iota(by_x.begin(), by_x.end(), 0);
     std::sort(by_x.begin(), by_x.end(), [&](int i, int j) { return disk(i).x - disk(i).r < disk(j).x - disk(j).r; });
@@ -63,6 +67,7 @@ void find_pairs(Moment& moment) {
             if (b.x - b.r > a.x + a.r + std::max(least, 0.0) + hair) break;
             BodyPair pair{std::min(*first, *second), std::max(*first, *second),
                           std::sqrt(mobb::squared_distance(a, b)) - (a.r + b.r)};
+            if (agents_of(pair).first == agents_of(pair).second) continue;
             if (mobb::collide(a, b)) {
                 moment.overlaps.push_back(pair);
             } else if (pair.clearance < least) {
@@ -71,12 +76,15 @@ void find_pairs(Moment& moment) {
             }
         }
     }
-    std::sort(moment.overlaps.begin(), moment.overlaps.end(),
-              [](const BodyPair& p, const BodyPair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
     for (const BodyPair& pair : moment.overlaps) {
         bodies[static_cast<std::size_t>(pair.a)].overlaps = true;
         bodies[static_cast<std::size_t>(pair.b)].overlaps = true;
     }
+    std::ranges::sort(moment.overlaps, {}, [&](const BodyPair& pair) {
+        return std::tuple(agents_of(pair), pair.clearance, pair.a, pair.b);
+    });
+    const auto others = std::ranges::unique(moment.overlaps, {}, agents_of);
+    moment.overlaps.erase(others.begin(), others.end());
     if (!moment.overlaps.empty()) moment.nearest.reset();
 }
 
@@ -93,7 +101,8 @@ constexpr std::size_t kMostWaiting = 3;
 std::string who_waits(std::span<const DrawnAgent> agents, const Moment& moment) {
     std::vector<std::string> names;
     for (const Body& body : moment.bodies) {
-        if (body.waits) names.push_back(agents[static_cast<std::size_t>(body.agent)].label);
+        if (body.waits && is_first_of(moment, body))
+            names.push_back(agents[static_cast<std::size_t>(body.agent)].label);
     }
     if (names.empty()) return "";
     std::string out = names.front();
@@ -139,17 +148,28 @@ std::vector<double> cylinder_heights(std::span<const DrawnAgent> agents) {
     return out;
 }
 
+bool is_first_of(const Moment& moment, const Body& body) {
+    return &body == &moment.bodies.front() || body.agent != (&body - 1)->agent;
+}
+
+std::size_t people_in(const Moment& moment) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(moment.bodies, [&](const Body& body) { return is_first_of(moment, body); }));
+}
+
 Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> heights, double time) {
     Moment out;
     out.time = time;
     for (std::size_t i = 0; i < agents.size(); ++i) {
         const std::optional<int> sample = sample_at(agents[i], time);
         if (!sample) continue;
-        out.bodies.push_back({.agent = static_cast<int>(i),
-                              .sample = *sample,
-                              .disk = mobb::swept(agents[i].clip(), *sample).at(time),
-                              .height = heights[i],
-                              .waits = waits_at(agents[i].clip(), *sample)});
+        for (const mobb::PlacedClip& path : agents[i].paths()) {
+            out.bodies.push_back({.agent = static_cast<int>(i),
+                                  .sample = *sample,
+                                  .disk = mobb::swept(path, *sample).at(time),
+                                  .height = heights[i],
+                                  .waits = waits_at(path, *sample)});
+        }
     }
     // Radii of more are shown by no picture.
     if (out.bodies.size() <= 2) {
@@ -177,7 +197,8 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
         return agents[static_cast<std::size_t>(moment.bodies[static_cast<std::size_t>(body)].agent)];
     };
     const auto both = [&](const BodyPair& pair) { return agent(pair.a).label + " and " + agent(pair.b).label; };
-    const std::size_t count = moment.bodies.size();
+    const std::size_t count = people_in(moment);
+    const bool is_disk_each = count == moment.bodies.size();
     // There is always a detail, or the caption would change its height while time runs.
     const auto add_detail = [&](const std::string& text) {
         out.detail += (out.detail.empty() ? "" : "  \u00B7  ") + text;
@@ -189,7 +210,7 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
         out.headlines = {"Nobody is on the floor" + then};
     } else if (count == 1) {
         out.headlines = {agent(0).label + then};
-        add_detail(radius(agent(0), moment.bodies.front()));
+        if (is_disk_each) add_detail(radius(agent(0), moment.bodies.front()));
     } else if (moment.overlaps.size() > 1) {
         const std::string pairs = std::to_string(moment.overlaps.size()) + " pairs";
         out.headlines = {pairs + " of " + std::to_string(count) + " agents overlap" + then, pairs + " overlap" + then};
@@ -222,7 +243,7 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
         add_detail((bones.distance < 0 ? "bones overlap by " : "nearest bones ") +
                    with_unit(std::abs(bones.distance), "m") + ": " + bone_words(*agents[0].skeleton, bones.a) +
                    " and " + bone_words(*agents[1].skeleton, bones.b));
-    } else if (count == 2) {
+    } else if (count == 2 && is_disk_each) {
         add_detail("radii " + with_unit(moment.bodies[0].disk.r, "m") + " and " +
                    with_unit(moment.bodies[1].disk.r, "m"));
     }

@@ -18,7 +18,7 @@ struct FarthestJoint {
     double distance = 0;  ///< metres on the floor from the centre of the disk
 };
 
-/// Somebody who stands there then.
+/// Somebody who stands there then: of who is several disks one of these, which stand together.
 struct Body {
     int agent = 0;                            ///< index into the drawn agents
     int sample = 0;                           ///< that holds then
@@ -45,11 +45,16 @@ struct BodyPair {
 struct Moment {
     double time = 0;  ///< global seconds
     std::vector<Body> bodies;
-    std::vector<BodyPair> overlaps;   ///< all pairs whose samples collide (mobb/predicate.h)
+    std::vector<BodyPair> overlaps;   ///< of all agents whose disks collide (mobb/predicate.h) the deepest two
     std::optional<BodyPair> nearest;  ///< if no pair overlaps: the one with the least clearance
     /// Of a query of two with skeletons that are there: their bones as capsules of kBoneRadius.
     std::optional<NearestBones> bones{};
 };
+
+/// Whether a body is the first of its agent's.
+bool is_first_of(const Moment& moment, const Body& body);
+/// How many agents stand there.
+std::size_t people_in(const Moment& moment);
 
 /// `heights`: of the agents' cylinders, one for each.
 Moment moment_of(std::span<const DrawnAgent> agents, std::span<const double> heights, double time);

@@ -58,17 +58,18 @@ std::vector<glm::vec3> standing_room(const DrawnSpace& space, std::span<const Dr
     const bool all = shown_count(agents) == 0;
     for (std::size_t s = 0; s < agents.size(); ++s) {
         if (agents[s].hidden && !all) continue;
-        const mobb::PlacedClip& clip = agents[s].clip();
-        std::optional<mobb::Disk> last;
-        for (int i = 0; i < clip.count(); ++i) {
-            const mobb::Disk d = clip.disk(i);
-            if (last && std::hypot(d.x - last->x, d.y - last->y) + d.r <= last->r + slip) continue;
-            last = d;
-            const double radius = (d.r + slip) * outside;
-            for (const double height : {0.0, heights[s]}) {
-                for (int side = 0; side < kSides; ++side) {
-                    const glm::dvec2 corner = glm::dvec2(d.x, d.y) + radius * on_circle(side + 0.5, kSides);
-                    out.push_back(space.point(corner.x, corner.y, height));
+        for (const mobb::PlacedClip& clip : agents[s].paths()) {
+            std::optional<mobb::Disk> last;
+            for (int i = 0; i < clip.count(); ++i) {
+                const mobb::Disk d = clip.disk(i);
+                if (last && std::hypot(d.x - last->x, d.y - last->y) + d.r <= last->r + slip) continue;
+                last = d;
+                const double radius = (d.r + slip) * outside;
+                for (const double height : {0.0, heights[s]}) {
+                    for (int side = 0; side < kSides; ++side) {
+                        const glm::dvec2 corner = glm::dvec2(d.x, d.y) + radius * on_circle(side + 0.5, kSides);
+                        out.push_back(space.point(corner.x, corner.y, height));
+                    }
                 }
             }
         }
@@ -144,10 +145,16 @@ Moment of_whole_ones(const Moment& moment, std::span<const DrawnAgent> agents) {
         const int b = index[static_cast<std::size_t>(pair.b)];
         if (a >= 0 && b >= 0) out.overlaps.push_back({a, b, pair.clearance});
     }
-    if (out.bodies.size() == 2 && out.overlaps.empty()) {
-        const mobb::Disk& a = out.bodies[0].disk;
-        const mobb::Disk& b = out.bodies[1].disk;
-        out.nearest = BodyPair{0, 1, std::hypot(b.x - a.x, b.y - a.y) - a.r - b.r};
+    if (people_in(out) != 2 || !out.overlaps.empty()) return out;
+    const int bodies = static_cast<int>(out.bodies.size());
+    for (int i = 0; i < bodies; ++i) {
+        for (int j = i + 1; j < bodies; ++j) {
+            const Body &one = out.bodies[static_cast<std::size_t>(i)], &other = out.bodies[static_cast<std::size_t>(j)];
+            if (one.agent == other.agent) continue;
+            const mobb::Disk &a = one.disk, &b = other.disk;
+            const double clearance = std::hypot(b.x - a.x, b.y - a.y) - a.r - b.r;
+            if (!out.nearest || clearance < out.nearest->clearance) out.nearest = BodyPair{i, j, clearance};
+        }
     }
     return out;
 }
@@ -234,7 +241,7 @@ class MomentPicture final : public Picture {
     OverlayContents words() override {
         OverlayContents out;
         out.bars = bars_;
-        out.caption = moment_caption(list_.palette, agents_, told_, tells_all_ ? count_ : told_.bodies.size());
+        out.caption = moment_caption(list_.palette, agents_, told_, tells_all_ ? count_ : people_in(told_));
         if (outside_) mention_cursor_outside(out.caption, moment_.time, bounds_.min.z, bounds_.max.z);
         if (choice_) {
             out.caption.detail = choice_sentence(fitted_.scene(), *choice_);

@@ -395,12 +395,13 @@ void add_body_names(DrawList& list, LabelLayout& layout, std::span<const DrawnAg
     const auto agent_of = [&](const Body& body) -> const DrawnAgent& {
         return agents[static_cast<std::size_t>(body.agent)];
     };
-    const auto shown = std::ranges::count_if(moment.bodies, [&](const Body& body) { return !agent_of(body).hidden; });
+    const auto shown = std::ranges::count_if(
+        moment.bodies, [&](const Body& body) { return is_first_of(moment, body) && !agent_of(body).hidden; });
     const bool all = agents.size() > 1 && names_fit(static_cast<std::size_t>(shown)) &&
                      std::ranges::none_of(agents, &DrawnAgent::outlined);
     for (const Body& body : moment.bodies) {
         const DrawnAgent& agent = agent_of(body);
-        if (agent.hidden || !(all || agent.named)) continue;
+        if (agent.hidden || !(all || agent.named) || !is_first_of(moment, body)) continue;
         const glm::vec3 top = list.space.point(body.disk.x, body.disk.y, body.height);
         if (const auto label = name_label(list, agent, top, body.disk.r, metrics.text)) layout.place(*label, list);
     }
