@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLongest = 1e6;  // seconds: who comes nearer so slowly does it by rounding
-constexpr std::int64_t kMostVisits = 100'000;
+constexpr std::int64_t kMostVisits = 1'000'000;
+constexpr std::string_view kNoWidth = "their disks have radius 0, and points do not collide";
 
 /// The least over [begin, end] of s, in seconds.
 double least_time_to_collision(const Approach& approach, Approach::Range over) {
@@ -37,6 +38,11 @@ double least_time_to_collision(const Approach& approach, Approach::Range over) {
     return seconds <= kLongest ? seconds : kNever;
 }
 
+/// Whether all its disks are points.
+bool has_no_width(const PlacedClip& clip) {
+    return std::ranges::all_of(clip.clip().samples(), [](const Disk& disk) { return disk.r == 0; });
+}
+
 }  // namespace
 
 MaybeSeconds time_to_collision(const PlacedClip& a, const PlacedClip& b, const Conflict& conflict, double within) {
@@ -53,13 +59,15 @@ MaybeSeconds time_to_collision(const PlacedClip& a, const PlacedClip& b, const C
     const double begin = conflict.intervals.front().t0;
     const auto from = [begin](const PlacedClip& clip) { return first_ending_after(clip, 0, clip.count() - 1, begin); };
     visit_sample_pairs(wide_a, from(a), a.count(), wide_b, from(b), b.count(), observer, take);
+    if (least == kNever && has_no_width(a) && has_no_width(b)) return {.undefined = kNoWidth};
     if (least == kNever) return {.undefined = "they are on no course to collide"};
     return {least, ""};
 }
 
 MaybeSeconds post_encroachment_time(const PlacedClip& a, const PlacedClip& b, const Conflict& conflict) {
     if (conflict.least_clearance < 0) return {0, ""};
-    const FloorPaths paths = floor_paths(a, b, kMostVisits);
+    if (has_no_width(a) && has_no_width(b)) return {.undefined = kNoWidth};
+    const FloorPaths paths = floor_paths(a, b, kMostVisits, true);
     if (!paths.known) return {.undefined = "too many of their samples lie too near each other to tell"};
     if (!paths.meeting) return {.undefined = "their paths share no place"};
     return {std::max(0.0, paths.meeting->gap), ""};

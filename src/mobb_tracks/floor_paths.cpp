@@ -17,7 +17,8 @@ namespace mobb {
 namespace {
 
 constexpr int kLeaf = 8;
-constexpr int kNarrowings = 45;  // of a range of times: to 1e-9 of it by the golden section, 1e-13 by halves
+constexpr double kShortStep = 1e-3;  // of a range of lags
+constexpr int kNarrowings = 45;      // of a range of times: to 1e-9 of it by the golden section, 1e-13 by halves
 
 /// A range of samples and the rectangle that their disks lie in.
 struct Range {
@@ -90,10 +91,9 @@ double apart(const Range& a, const Range& b) {
 template <class Bound, class Value>
 class Least {
   public:
-    /// `cost`: visits that a value takes.
-    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, std::int64_t cost, const Bound& bound,
-          const Value& value_of)
-        : a_(a), b_(b), visits_(visits), cost_(cost), bound_(bound), value_of_(value_of) {
+    /// `value_of` may give any greater value in place of one that is no less than the third number it is given.
+    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
+        : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
         visit(0, 0, bound_(a_[0], b_[0]));
     }
 
@@ -107,10 +107,9 @@ class Least {
         const Range& a = a_[ia];
         const Range& b = b_[ib];
         if (a.is_leaf() && b.is_leaf()) {
-            visits_ -= cost_ * (a.end - a.first) * (b.end - b.first);
             for (int p = a.first; p < a.end; ++p) {
                 for (int q = b.first; q < b.end; ++q) {
-                    const double found = value_of_(p, q);
+                    const double found = value_of_(p, q, value);
                     if (found < value) value = found, i = p, j = q;
                 }
             }
@@ -132,7 +131,6 @@ class Least {
     const Ranges& a_;
     const Ranges& b_;
     std::int64_t& visits_;
-    std::int64_t cost_;
     const Bound& bound_;
     const Value& value_of_;
 };
@@ -140,8 +138,23 @@ class Least {
 /// Two samples on the floor, whatever the time: with a lag, B is taken that much later than A.
 class LaggedPair {
   public:
-    LaggedPair(const SweptDisk& a, const SweptDisk& b) : a_(a), b_(b), least_(b.begin - a.end), most_(b.end - a.begin) {
-        // What is least over the times of A is convex in the lag, as the clearance is in both times.
+    LaggedPair(const SweptDisk& a, const SweptDisk& b)
+        : a_(a), b_(b), least_(b.begin - a.end), most_(b.end - a.begin) {}
+
+    /// False only if they overlap at no lag that is nearer to 0 than this.
+    bool may_overlap(double lag) const {
+        const double low = std::max(least_, -lag), high = std::min(most_, lag);
+        if (low >= high) return false;
+        const double at_low = apart(low), at_high = apart(high);
+        if (at_low < 0 || at_high < 0) return true;
+        // What is least over the times of A is convex in the lag, as the clearance is in both times: it is nowhere less
+        // than at an end from which it does not fall.
+        const double step = kShortStep * (high - low);
+        return apart(low + step) < at_low && apart(high - step) < at_high;
+    }
+
+    /// Before what follows is asked.
+    void narrow() {
         constexpr double kGolden = 0.61803398874989485;
         double low = least_, high = most_;
         double one = high - kGolden * (high - low), two = low + kGolden * (high - low);
@@ -187,9 +200,9 @@ class LaggedPair {
 
 }  // namespace
 
-FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::int64_t most_visits) {
+FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::int64_t most_visits,
+                       bool meeting_alone) {
     const bool runs = clip_a.is_linear() || clip_b.is_linear();
-    const std::int64_t cost = runs ? kRunningPair : 1;
     const Ranges a(clip_a, runs ? 1 : kLeaf);
     const Ranges b(clip_b, runs ? 1 : kLeaf);
     std::int64_t visits = most_visits;
@@ -201,34 +214,45 @@ FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::
         if (apart(ra, rb) > 0) return kNever;
         const double between = gap(a.begin(ra.first), a.end(ra.end - 1), b.begin(rb.first), b.end(rb.end - 1));
         // In ranges that share time there may be samples that share any of it.
-        return between > 0 ? between : -kNever;
+        return between > 0 ? between : runs ? 0 : -kNever;
     };
-    const auto gap_value = [&](int i, int j) {
+    const auto narrowed = [&](LaggedPair pair) {
+        visits -= kRunningPair;
+        pair.narrow();
+        return pair;
+    };
+    const auto gap_value = [&](int i, int j, double least) {
         if (runs) {
+            visits -= kLookedAtPair;
             const LaggedPair pair(a.swept(i), b.swept(j));
-            return pair.apart() < 0 ? std::abs(pair.lag()) : kNever;
+            if (!pair.may_overlap(least)) return kNever;
+            const LaggedPair nearest = narrowed(pair);
+            return nearest.apart() < 0 ? std::abs(nearest.lag()) : kNever;
         }
+        --visits;
         return collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kNever;
     };
-    const Least meeting(a, b, visits, cost, gap_bound, gap_value);
+    const Least meeting(a, b, visits, gap_bound, gap_value);
     if (visits < 0) return {};
     FloorPaths out;
     out.known = true;
     if (meeting.i >= 0) {
         // Samples that run may share time, and the one that begins later be there first.
-        const double lag = runs ? LaggedPair(a.swept(meeting.i), b.swept(meeting.j)).lag() : 0;
+        const double lag = runs ? narrowed({a.swept(meeting.i), b.swept(meeting.j)}).lag() : 0;
         const bool a_first = lag != 0 ? lag > 0 : a.begin(meeting.i) < b.begin(meeting.j);
         out.meeting = {meeting.i, meeting.j, meeting.value, a_first};
         return out;
     }
+    if (meeting_alone) return out;
     const auto distance_bound = [](const Range& ra, const Range& rb) { return apart(ra, rb); };
-    const auto distance = [&](int i, int j) {
-        if (runs) return std::max(0.0, LaggedPair(a.swept(i), b.swept(j)).apart());
+    const auto distance = [&](int i, int j, double) {
+        if (runs) return std::max(0.0, narrowed({a.swept(i), b.swept(j)}).apart());
+        --visits;
         const Disk& da = a.disk(i);
         const Disk& db = b.disk(j);
         return std::max(0.0, std::sqrt(squared_distance(da, db)) - (da.r + db.r));
     };
-    const Least nearest(a, b, visits, cost, distance_bound, distance);
+    const Least nearest(a, b, visits, distance_bound, distance);
     if (visits < 0) return {};
     out.apart = nearest.value;
     return out;

@@ -21,13 +21,16 @@ struct FloorMeeting {
 struct FloorPaths {
     bool known = false;  ///< false: too many samples lie too near each other to tell in the time of a frame
     std::optional<FloorMeeting> meeting;  ///< if the paths overlap on the floor
-    double apart = 0;                     ///< metres between them if not; else 0
+    double apart = 0;                     ///< metres between them if not, where that is asked; else 0
 };
 
-/// What a pair of samples of which one runs takes of the visits of floor_paths.
-inline constexpr std::int64_t kRunningPair = 250;
+/// What a pair of samples of which one runs takes of the visits of floor_paths: to be measured, and to be seen to be no
+/// nearer in time than another.
+inline constexpr std::int64_t kRunningPair = 250, kLookedAtPair = 8;
 
 /// Makes at most so many visits of a few nanoseconds each, one for two samples that stay or two ranges of samples.
-FloorPaths floor_paths(const PlacedClip& a, const PlacedClip& b, std::int64_t most_visits = 1'000'000);
+/// `meeting_alone`: FloorPaths::apart is not asked.
+FloorPaths floor_paths(const PlacedClip& a, const PlacedClip& b, std::int64_t most_visits = 1'000'000,
+                       bool meeting_alone = false);
 
 }  // namespace mobb

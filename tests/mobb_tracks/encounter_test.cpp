@@ -114,6 +114,38 @@ TEST(Encounters, PostEncroachmentTimeIsHowMuchLaterTheOtherComes) {
     EXPECT_TRUE(std::isnan(none.seconds));
 }
 
+TEST(Encounters, OfWhoFollowsFarApartInSamplesTheTimeIsFound) {
+    constexpr double kSpeed = 1.4, kBehind = 1, kFrame = 0.04;
+    for (const double seconds : {60.0, 600.0}) {
+        Random random(2);
+        std::vector<Disk> walk, sway, stand;
+        for (int i = 0; i * kFrame < seconds; ++i) {
+            walk.push_back({kSpeed * kFrame * i, 0, 0.25});
+            sway.push_back({random.real(-0.1, 0.1), random.real(-0.1, 0.1), 0.25});
+            stand.push_back({0.62 + random.real(-0.1, 0.1), random.real(-0.1, 0.1), 0.25});
+        }
+        const Clip first(kFrame, walk, Motion::linear), one(kFrame, sway, Motion::linear),
+            other(kFrame, stand, Motion::linear);
+        const PlacedClip a(first, {}), b(first, {{0, 0}, 0, kBehind});
+        EXPECT_NEAR(post_encroachment_time(a, b, conflict_of(a, b, kWithin)).seconds, kBehind - 0.5 / kSpeed, 1e-6);
+        // Two who stand together, and now and then lean to where the other has been.
+        const PlacedClip p(one, {}), q(other, {});
+        Conflict apart = conflict_of(p, q, kWithin);
+        apart.least_clearance = std::max(apart.least_clearance, 0.0);
+        const MaybeSeconds found = post_encroachment_time(p, q, apart);
+        EXPECT_EQ(found.undefined, "") << seconds;
+        EXPECT_LT(found.seconds, 1);
+    }
+}
+
+TEST(Encounters, PointsCollideWithNobody) {
+    const Clip walk(0.5, std::vector<Disk>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, Motion::linear);
+    const PlacedClip a(walk, {}), b(walk, {{1, 1}, -90, 0});
+    const Conflict near = conflict_of(a, b, kWithin);
+    EXPECT_EQ(post_encroachment_time(a, b, near).undefined, "their disks have radius 0, and points do not collide");
+    EXPECT_EQ(time_to_collision(a, b, near, kWithin).undefined, "their disks have radius 0, and points do not collide");
+}
+
 TEST(Encounters, SayWhyThereIsNoTimeToCollision) {
     const Clip walk = walk_of({{0, 0}, {1, 0}, {2, 0}}), held = walk_of({{0, 1}, {1, 1}, {2, 1}}, Motion::held);
     const PlacedClip a(walk, {}), stays(held, {}), beside(walk, {{0, 1}, 0, 0});
