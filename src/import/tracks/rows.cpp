@@ -73,6 +73,7 @@ std::string_view RowReader::identifier(const Cells& cells) {
         if (!is_utf8(cells.text(scope))) cells.fail(scope, "the name is not UTF-8 text; save the file as UTF-8");
         scoped_id_.append(cells.text(scope)).append("/");
     }
+    scope_size_ = scoped_id_.size() - 1;
     return scoped_id_.append(text);
 }
 
@@ -130,6 +131,7 @@ bool RowReader::add(const Cells& cells) {
     if (!has(Column::id) && has_times() && !tracks_.empty()) check_order(cells, time);
     last_ = time;
     tracks_.add(id, point, label(cells));
+    if (!scopes.empty() && tracks_.last().points.size() == 1) tracks_.last().scope = scoped_id_.substr(0, scope_size_);
     return true;
 }
 

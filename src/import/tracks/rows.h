@@ -83,6 +83,7 @@ class RowReader {
     std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
     std::string id_text_{};
     std::string scoped_id_{};
+    std::size_t scope_size_ = 0;        ///< of that in front of the id
     std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
     int first_empty_ = 0;               ///< line
 };
