@@ -77,7 +77,7 @@ void write_json(const ConflictListing& listing) {
     out.begin_object();
     out.members("file", listing.file, "t0", listing.t0, "agents", listing.agents, "radius", listing.radius);
     out.members("pairs", listing.pairs, "pairs_tested", listing.pairs_tested, "seconds", listing.seconds);
-    if (!listing.doubt.empty()) out.member("doubt", listing.doubt);
+    out.values("warnings", listing.warnings);
     if (listing.unforced) out.member("unforced", *listing.unforced);
     if (listing.left_out) out.member("left_out", *listing.left_out);
     if (listing.within) out.member("within", *listing.within);
@@ -89,7 +89,7 @@ void write_json(const ConflictListing& listing) {
     Chains chains;
     out.begin_array("conflicts");
     for (std::size_t i = 0; i < listing.size; ++i) {
-        const ListedConflict conflict = listing.row(i);
+        const ListedConflict conflict = listing.row(i, true);
         write_conflict(out, conflict, listing.part.has_value());
         if (listing.within && !listing.part) chains.add(conflict);
     }
@@ -108,7 +108,7 @@ void write_csv(const ConflictListing& listing) {
     std::cout << "a,b,begin,end,seconds,longest,intervals,least_clearance,time,x,y,a_sample,b_sample,invented"
               << (listing.within ? ",time_to_collision,post_encroachment_time,undefined\n" : "\n");
     for (std::size_t i = 0; i < listing.size; ++i) {
-        const ListedConflict of = listing.row(i);
+        const ListedConflict of = listing.row(i, true);
         std::cout << csv_field(of.a_name) << ',' << csv_field(of.b_name) << ','
                   << format_double(of.intervals.front().t0) << ',' << format_double(of.intervals.back().t1) << ','
                   << format_double(mobb::seconds_of(of.intervals)) << ','
@@ -167,7 +167,7 @@ void write_text(const ConflictListing& listing) {
     const std::size_t listed = std::min(listing.size, TextRows::kMost);
     Chains chains;
     for (std::size_t i = 0; i < listing.size && (i < listed || listing.within); ++i) {
-        const ListedConflict conflict = listing.row(i);
+        const ListedConflict conflict = listing.row(i, i < listed);
         if (listing.within) chains.add(conflict);
         if (i >= listed) continue;
         std::cout << cleaned(conflict.a_name) << " and " << cleaned(conflict.b_name) << ": "
@@ -199,7 +199,7 @@ void write_text(const ConflictListing& listing) {
                              "conflicts rest on invented motion and are left out")
                   << '\n';
     }
-    if (!listing.doubt.empty()) std::cout << "in doubt: " << cleaned(listing.doubt) << '\n';
+    for (const std::string& warning : listing.warnings) std::cout << "in doubt: " << cleaned(warning) << '\n';
     if (listing.unforced.value_or(0) > 0)
         std::cout << counted(*listing.unforced, "contact", "contacts")
                   << " without a forced play: an answer was wrong, or the run was edited\n";
@@ -293,7 +293,7 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
     out.radius = optional_number(in, "radius");
     out.pairs = static_cast<std::size_t>(in.require("pairs").count());
     out.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
-    if (const auto doubt = in.find("doubt")) out.doubt = doubt->string();
+    in.require("warnings").each([&](const JsonPlace& one) { out.warnings.push_back(one.string()); });
     if (const auto left_out = in.find("left_out")) out.left_out = static_cast<std::size_t>(left_out->count());
     out.within = optional_number(in, "within");
     out.least_seconds = optional_number(in, "min_duration");
@@ -357,7 +357,7 @@ ConflictListing merged_listing(const std::vector<std::filesystem::path>& files) 
     whole->part.reset();
     whole->size = rows->size();
     for (const ListedConflict& of : *rows) whole->seconds += mobb::seconds_of(of.intervals);
-    whole->row = [rows](std::size_t i) { return (*rows)[i]; };
+    whole->row = [rows](std::size_t i, bool) { return (*rows)[i]; };
     return std::move(*whole);
 }
 

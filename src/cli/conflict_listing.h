@@ -50,7 +50,7 @@ struct ConflictListing {
     std::optional<double> radius;
     std::size_t pairs = 0, pairs_tested = 0;
     double seconds = 0;
-    std::string doubt{};  ///< why the speeds of the whole file are nobody's; empty: they are somebody's
+    std::vector<std::string> warnings{};  ///< see doubts_in
     std::optional<std::int64_t> unforced;
     std::optional<double> within;  ///< metres: these are encounters
     std::optional<double> least_seconds;
@@ -59,7 +59,8 @@ struct ConflictListing {
     std::optional<std::size_t> left_out;  ///< conflicts that rest on invented motion, where they are not listed
 
     std::size_t size = 0;
-    std::function<ListedConflict(std::size_t)> row;  ///< worst first
+    /// Worst first; `figures`: with times to collision and of post-encroachment, where these are encounters.
+    std::function<ListedConflict(std::size_t, bool figures)> row;
 
     /// Whether two are parts of one whole.
     bool is_of_the_same(const ConflictListing& other) const;

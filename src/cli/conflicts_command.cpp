@@ -248,6 +248,7 @@ void tell_times(const Findings& findings, const mobb::PeopleConflict& conflict, 
     out.post_encroachment = listed_seconds(encroachment);
 }
 
+/// `within`: of encounters whose figures are asked.
 ListedConflict listed_conflict(const Findings& findings, std::size_t index, std::optional<double> within) {
     const mobb::PeopleConflict conflict = findings.conflicts[index];
     const mobb::Conflict& deepest = conflict.deepest;
@@ -280,7 +281,7 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
             found.pairs(),
             found.pairs_tested(),
             findings.seconds,
-            findings.scene.clips.front().facts.doubt,
+            doubts_in(findings.scene),
             findings.unforced,
             arguments.within,
             arguments.least_seconds,
@@ -288,8 +289,8 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
             arguments.part ? crowd_digest(findings.scene) : 0,
             arguments.strict_motion ? std::optional(found.size() - findings.listed.size()) : std::nullopt,
             findings.listed.size(),
-            [&findings, within = arguments.within](std::size_t i) {
-                return listed_conflict(findings, findings.listed[i], within);
+            [&findings, within = arguments.within](std::size_t i, bool figures) {
+                return listed_conflict(findings, findings.listed[i], figures ? within : std::nullopt);
             }};
 }
 

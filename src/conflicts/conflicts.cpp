@@ -9,6 +9,7 @@
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -80,6 +81,17 @@ std::function<void(std::size_t bytes)> spend_on_conflicts() {
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds) {
     return counted(conflicts, "conflict", "conflicts") + " among " + counted(people, "agent", "agents") + ", " +
            figure(seconds) + " s in all";
+}
+
+std::vector<std::string> doubts_in(const Scene& scene) {
+    std::vector<std::string> out;
+    for (const SceneClip& clip : scene.clips) {
+        const std::string& doubt = clip.facts.doubt;
+        // Clips of one file stand together.
+        if (!doubt.empty() && (out.empty() || out.back() != doubt) && std::ranges::find(out, doubt) == out.end())
+            out.push_back(doubt);
+    }
+    return out;
 }
 
 std::vector<SceneConflict> conflicts_in(const Scene& scene, const Progress& progress) {

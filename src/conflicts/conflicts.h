@@ -19,6 +19,10 @@ namespace mobbscope {
 /// "2 conflicts among 22 agents, 1.3 s in all": a conflict is a pair of people.
 std::string conflict_count(std::size_t conflicts, std::size_t people, double seconds);
 
+/// Why the speeds in a scene's files are nobody's (SourceFacts::doubt), each once: no count of conflicts stands without
+/// it.
+std::vector<std::string> doubts_in(const Scene& scene);
+
 /// A conflict of a scene or a run, with the paths on which its worst contact begins.
 struct SceneConflict {
     PlacedAgent a, b;              ///< PlacedAgent::agent is the agent's index, of a run in CrowdRun::agents

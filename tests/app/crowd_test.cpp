@@ -2,6 +2,7 @@
 #include <app/commands/command.h>
 #include <app/document/agents.h>
 #include <app/document/shown_agents.h>
+#include <app/script/state_json.h>
 #include <base/error.h>
 #include <base/file.h>
 #include <conflicts/conflicts.h>
@@ -18,9 +19,12 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -402,6 +406,28 @@ constexpr const char* kMetBetweenPlays = R"({"mobbscope": 1,
     {"name": "17", "plays": [{"move": 0, "translate": [0,0], "rotate_deg": 0, "start": 0},
       {"move": 0, "translate": [4,0], "rotate_deg": 0, "start": 2, "chosen_at": 1.5, "kind": "forced"}]},
     {"name": "42", "plays": [{"move": 1, "translate": [3.5,0], "rotate_deg": 0, "start": 1.6, "chosen_at": 0}]}]}})";
+
+TEST(CrowdOfTracks, ADoubtStandsBesideTheCountOfConflicts) {
+    Session session(false);
+    const auto add = [&](const std::string& doubt) {
+        session.workspace.edit({"adding", ""}, [&](Scene& scene) {
+            std::vector<mobb::Disk> walk;
+            for (int i = 0; i < 20; ++i) walk.push_back({1.2 * i, 0, 0.2});
+            scene.clips.push_back({"walk", std::nullopt, {}, std::make_shared<const mobb::Clip>(0.1, walk)});
+            scene.clips.back().facts.doubt = doubt;
+            const int clip = static_cast<int>(scene.clips.size()) - 1;
+            for (int i = 0; i < 20; ++i)
+                scene.agents.push_back(
+                    {doubt + std::to_string(i), clip, {{0, 5.0 * i + 100.0 * clip}, 0, 0}, std::nullopt});
+        });
+        run_command(session, "conflicts.find");
+        return state_json(session).at("crowd").at("conflicts");
+    };
+    const auto clean = add("");
+    EXPECT_EQ(clean.at("count"), 0);
+    EXPECT_FALSE(clean.contains("warnings"));
+    EXPECT_EQ(add("too fast").at("warnings"), nlohmann::ordered_json({"too fast"}));
+}
 
 TEST_F(CrowdTest, WhoIsMetBetweenTwoLinearPlaysIsOpenedWithTheJoint) {
     session.files.open({folder.write("joint.json", kMetBetweenPlays)});

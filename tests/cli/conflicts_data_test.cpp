@@ -115,6 +115,55 @@ void expect_exact(const json& found, const ConvertedCrowd& crowd) {
     }
 }
 
+/// Nobody runs so fast: who is said to is somebody else, or was not seen.
+TEST(ConflictsData, NoPeopleMeetUnmarkedInAStepThatIsTooFastForThem) {
+    const std::filesystem::path data = kSharedData / "trajectories";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;
+    constexpr double kFastest = 8 + 1e-6;
+    std::size_t steps = 0, marked = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(data)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string file = entry.path().string();
+        SCOPED_TRACE(entry.path().filename());
+        const bool in_pixels = file.find("sdd_") != std::string::npos;
+        // Where a pixel counts as a metre all is too fast.
+        for (const std::vector<std::string>& options :
+             {std::vector<std::string>{"--radius", in_pixels ? "15" : "0.3"}, {"--radius", "0.5", "--unit", "0.04"}}) {
+            if (!in_pixels && options.size() > 2) continue;
+            std::vector<std::string> ask{"conflicts", file, "--json"}, tell{"info", file, "--json"};
+            ask.insert(ask.end(), options.begin(), options.end());
+            tell.insert(tell.end(), options.begin(), options.end());
+            const TempFolder folder;
+            const std::string csv = folder.path() / "crowd.csv";
+            std::vector<std::string> write{"convert", file, "-o", csv};
+            write.insert(write.end(), options.begin(), options.end());
+            ASSERT_EQ(run_program(write).status, 0);
+            const ConvertedCrowd crowd = read_converted(slurp(csv));
+            std::map<std::string, std::string> classes;
+            const json info = json::parse(run_program(tell).out);
+            if (info["clips"][0]["format"] == "mapf") continue;
+            for (const json& clip : info["clips"])
+                classes[clip["name"]] = clip["class"].is_string() ? clip["class"].get<std::string>() : "";
+            const json found = json::parse(run_program(ask).out);
+            for (const json& conflict : found["conflicts"]) {
+                marked += conflict.contains("invented");
+                if (conflict.contains("invented")) continue;
+                for (const auto& [who, sample] : {std::pair("a", "a_sample"), {"b", "b_sample"}}) {
+                    const std::string name = conflict[who];
+                    if (!classes[name].empty() && classes[name] != "Pedestrian") continue;
+                    const std::vector<ConvertedRow>& rows = crowd.at(name);
+                    const auto at = std::min(conflict[sample].get<std::size_t>(), rows.size() - 2);
+                    const double way = std::hypot(rows[at + 1].x - rows[at].x, rows[at + 1].y - rows[at].y);
+                    EXPECT_LE(way / (rows[at + 1].t - rows[at].t), kFastest) << conflict;
+                    ++steps;
+                }
+            }
+        }
+    }
+    EXPECT_GT(steps, 100u);
+    EXPECT_GT(marked, 0u);
+}
+
 TEST(ConflictsData, EveryTrajectoryFileIsAsAnExactSearchHasIt) {
     const std::filesystem::path data = kSharedData / "trajectories";
     if (!std::filesystem::exists(data)) GTEST_SKIP() << "no test data at " << data;

@@ -27,7 +27,7 @@ TEST(Conflicts, JsonHasThePairs) {
     const std::string file = folder.write("crowd.txt", kTrajectories);
     const json found = json_of({"conflicts", file});
     EXPECT_EQ(keys(found), (std::set<std::string>{"file", "t0", "agents", "radius", "pairs", "pairs_tested", "seconds",
-                                                  "conflicts"}));
+                                                  "warnings", "conflicts"}));
     EXPECT_EQ(found["file"], file);
     EXPECT_EQ(found["t0"], 5) << "frame 10";
     EXPECT_EQ(found["agents"], 3);
@@ -293,7 +293,16 @@ TEST(Conflicts, NoConflictStandsBesideADoubtThatIsNotSaid) {
     const Result insisted = run_program({"conflicts", file, "--unit", "m"});
     EXPECT_NE(insisted.out.find("\nin doubt: the median speed of who moves is 1000 m/s"), std::string::npos)
         << insisted.out;
-    EXPECT_TRUE(json_of({"conflicts", file, "--unit", "m"})["doubt"].is_string());
+    const json warnings = json_of({"conflicts", file, "--unit", "m"})["warnings"];
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].get<std::string>().find("is 1000 m/s"), std::string::npos) << warnings;
+    EXPECT_EQ(json_of({"conflicts", file, "--unit", "0.001"})["warnings"], json::array());
+    // Of a scene, whichever of its files it is.
+    folder.write("walk.csv", "id,t,x,y\n1,0,0,0\n1,1,1,0\n");
+    const std::string scene = folder.write("scene.json", R"({"mobbscope": 1, "clips": {"a": {"source": "walk.csv"},
+                          "b": {"source": "crowd.csv", "unit": "m"}}, "agents": [{"name": "1", "clip": "a"}, {"name": "2", "clip": "b"}]})");
+    EXPECT_EQ(json_of({"conflicts", scene})["warnings"], warnings);
+    EXPECT_NE(run_program({"conflicts", scene}).out.find("\nin doubt: the median speed"), std::string::npos);
 }
 
 TEST(Conflicts, KeptJumpsAreOneTrack) {

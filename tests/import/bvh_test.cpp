@@ -173,6 +173,7 @@ TEST(Bvh, RowsThatAreThereAreBelieved) {
         {60, 30, "Frames says 60, but 30 rows follow" + end + cut + " (line 22)"},
         {2, 1, "Frames says 2, but 1 row follows" + end + cut + " (line 22)"},
         {10'000'000, 3, "Frames says 10000000, but 3 rows follow" + end + cut + " (line 22)"},
+        {0, 2, "Frames says 0, but 2 rows follow" + end + " (line 22)"},
         {7, 7, ""},
     };
     for (const auto& [said, rows, warning] : kinds) {
@@ -301,10 +302,12 @@ TEST(Bvh, MessagesNameLineAndRemedy) {
     expect(with("Zposition", "Xposition"), "line 5: 'Xposition' stands twice in CHANNELS; remove one");
     expect(with("Zposition", "Zmove"),
            "line 5: 'Zmove' is not a channel; give Xposition, Xrotation or Xscale, or such of Y or Z");
-    for (const char* count : {"two", "", "0", "-2", "2.5", "10000001", "2147483647", "99999999999999999999"}) {
+    for (const char* count : {"two", "", "-2", "2.5", "10000001", "2147483647", "99999999999999999999"}) {
         expect(with("Frames: 2", "Frames: " + std::string(count)),
                "line 22: Frames needs a whole number from 1 to 10000000, but has '" + std::string(count) + "'");
     }
+    expect(replaced(kWalker.substr(0, kWalker.find("0 95 30")), "Frames: 2", "Frames: 0"),
+           "line 22: Frames says 0: the file holds a body and no motion; export the motion with it");
     expect(kWalker.substr(0, kWalker.find("0 95 30")),
            "line 22: Frames says 2, but no row follows; fetch the file again if it was cut off");
     expect(kWalker + "20 95 30\n", "line 26: the row has 3 values, but there are 12 channels; correct the row");

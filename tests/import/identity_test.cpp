@@ -44,6 +44,34 @@ TEST(Identity, IdsAreOnesWithinARecording) {
               std::string::npos);
 }
 
+TEST(Identity, RecordingsAreApartLikeFloors) {
+    const auto read =
+        csv_clips("take,location,id,t,x,y\na,1/2,1,0,0,0\na,1/2,1,1,1,0\nb,1/2,1/1,0,5,0\nb,1/2,1/1,1,6,0\n");
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].floor, "a/1/2");
+    EXPECT_EQ(read[1].floor, "b/1/2");
+    EXPECT_TRUE(warns(read[0], "who is in different ones was never there together and does not meet"));
+    EXPECT_EQ(csv_clips("id,t,x,y\n1,0,0,0\n1,1,1,0\n")[0].floor, "");
+}
+
+TEST(Identity, WhereYPointsUpItIsSaid) {
+    const auto walked = [](const char* header, double up, double along_y) {
+        std::string text = header;
+        for (int i = 0; i < 40; ++i) {
+            text += "1," + format_double(0.1 * i) + ',' + format_double(0.02 * i) + ',' + format_double(along_y * i) +
+                    ',' + format_double(up * i) + '\n';
+        }
+        return csv_clips(text);
+    };
+    EXPECT_TRUE(warns(walked("id,t,x,y,z\n", 0.14, 0)[0],
+                      "the column 'y' hardly changes and 'z' does: if y points up, as in Unity, give columns (y=z)"));
+    EXPECT_TRUE(warns(walked("id,t,PosX,PosY,PosZ\n", 0.14, 0.0001)[0], "give columns (y=PosZ)"));
+    EXPECT_FALSE(warns(walked("id,t,x,y,z\n", 0.0001, 0)[0], "hardly changes")) << "who walks along x";
+    EXPECT_FALSE(warns(walked("id,t,x,y,z\n", 0.14, 0.1)[0], "hardly changes")) << "stairs";
+    // Floors are no way.
+    EXPECT_FALSE(warns(csv_clips("id,t,x,y,z\n1,0,0,0,0\n2,0,0,0,3.5\n1,1,1,0,0\n2,1,1,0,3.5\n")[0], "hardly changes"));
+}
+
 TEST(Identity, ARowThatStandsTwiceCountsOnce) {
     const auto read = csv_clips("id,t,x,y\n1,0,0,0\n1,0,0,0\n1,1,1,0\n1,1,1,0\n1,1,1,0\n1,2,2,0\n");
     EXPECT_EQ(read[0].clip->count(), 3);

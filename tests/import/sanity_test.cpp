@@ -227,6 +227,26 @@ TEST(Sanity, WhoIsInTwoPlacesByTurnsIsInOne) {
     }
 }
 
+TEST(Sanity, WhatIsResampledAroundAStepThatIsTooFastIsMarkedToo) {
+    std::string rows = kSanityHead;
+    for (int i = 0; i < 40; ++i)
+        rows += formatted("a,%.3f,%.3f,0\n", 0.137 * i + 0.01 * (i % 3), 0.2 * i + (i > 20 ? 0.9 : 0));
+    rows += formatted("a,%.3f,%.3f,0\n", 0.137 * 39 + 0.01 + 0.004, 0.2 * 39 + 1.5);
+    const auto read = csv_clips(rows);
+    ASSERT_EQ(read.size(), 1u);
+    const mobb::Clip& clip = *read[0].clip;
+    int fast = 0;
+    for (int i = 1; i < clip.count(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        if (clip.samples()[at].x - clip.samples()[at - 1].x <= 8 * clip.dt()) continue;
+        ++fast;
+        EXPECT_TRUE(std::ranges::any_of(read[0].facts.invented, [&](const auto& of) {
+            return of.first <= (i - 1) * clip.dt() && i * clip.dt() <= of.second;
+        })) << i;
+    }
+    EXPECT_GT(fast, 0);
+}
+
 TEST(Sanity, AClockThatStepsIsToldAsThat) {
     for (const double step : {7.0, 3600.0}) {
         std::string text = kSanityHead;

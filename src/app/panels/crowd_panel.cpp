@@ -77,6 +77,7 @@ void conflicts(Ui& ui, CrowdInspector& crowds) {
         command_button(ui, "find conflicts", "conflicts.find", "conflicts.find");
         return;
     }
+    for (const std::string& doubt : doubts_in(ui.workspace.scene())) words(ui.style.text, "In doubt: " + doubt);
     if (found->empty()) {
         words(to_im(readable(ui.style.palette.separated, ui.style.palette)), "No two agents collide.");
         return;

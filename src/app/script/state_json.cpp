@@ -198,6 +198,7 @@ Json crowd_json(const Workspace& workspace, const CrowdInspector& crowds) {
     }
     if (const auto* conflicts = crowds.conflicts()) {
         json["conflicts"] = {{"count", conflicts->size()}, {"shown", workspace.conflict}};
+        if (const auto doubts = doubts_in(workspace.scene()); !doubts.empty()) json["conflicts"]["warnings"] = doubts;
     }
     return json;
 }

@@ -363,7 +363,7 @@ class BvhParser {
     void read_motion_header() {
         const std::string_view frames = setting("Frames", {"frames"});
         const std::optional<int> count = parse_int(frames);
-        if (!count || *count < 1 || *count > kMaxFrames) {
+        if (!count || *count < 0 || *count > kMaxFrames) {
             in_.fail("Frames needs a whole number from 1 to " + std::to_string(kMaxFrames) + ", but has " +
                      in_quotes(frames));
         }
@@ -392,6 +392,8 @@ class BvhParser {
             const std::size_t row = sizeof(double) * data_.row_length + sizeof(glm::dvec3) * (2 + data_.joints.size());
             data_.spent.cover(row * (data_.frames() + 1), "its frames", in_.file());
         }
+        if (data_.values.empty() && frames_ == 0)
+            in_.fail(frames_line_, "Frames says 0: the file holds a body and no motion; export the motion with it");
         if (data_.values.empty())
             in_.fail(frames_line_, "Frames says " + std::to_string(frames_) +
                                        ", but no row follows; fetch the file again if it was cut off");

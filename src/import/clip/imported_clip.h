@@ -117,7 +117,8 @@ struct ImportedClip {
     /// Of who is more than one disk: these, in place of the disks of the samples, which are around all of them.
     std::vector<mobb::BodyDisk> body{};
     std::vector<double> headings{};  ///< degrees, of a body whose file has them: one a sample; empty: as it moves
-    std::string floor{};             ///< of a building: those of different floors never meet; empty: nobody says
+    /// Of a building, or the recording of a file of several: those of different ones never meet; empty: nobody says.
+    std::string floor{};
 };
 
 /// Is given the clips of a file one by one.

@@ -74,6 +74,7 @@ std::string_view RowReader::identifier(const Cells& cells) {
         if (!is_utf8(cells.text(scope))) cells.fail(scope, "the name is not UTF-8 text; save the file as UTF-8");
         scoped_id_.append(cells.text(scope)).append("/");
     }
+    scope_size_ = scoped_id_.size() - 1;
     return scoped_id_.append(text);
 }
 
@@ -181,6 +182,7 @@ bool RowReader::add(const Cells& cells) {
     std::optional<PointDetail> more;
     if (has_details()) more = detail(cells);
     tracks_.add(id, point, label(cells), more ? &*more : nullptr);
+    if (!scopes.empty() && tracks_.last().points.size() == 1) tracks_.last().scope = scoped_id_.substr(0, scope_size_);
     return true;
 }
 

@@ -94,6 +94,7 @@ class RowReader {
     std::string id_text_{};
     std::string scoped_id_{};
     std::vector<std::string> floors_{};
+    std::size_t scope_size_ = 0;        ///< of that in front of the id
     std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
     int first_empty_ = 0;               ///< line
 };

@@ -32,6 +32,7 @@ constexpr double kLeastTold = 0.5;       // of a step that is too fast and told
 constexpr double kTooFast = 1.5;         // times what its class can, likewise
 constexpr double kNoise = 7;             // times the median of what rows are off the line of those beside them
 constexpr std::size_t kNoiseRows = 12;   // of which that is taken, on either side
+constexpr std::size_t kFewestNoise = 6;  // fewer rows do not tell it
 constexpr std::size_t kMostOff = 3;      // rows that are left out as points far off
 constexpr double kLongestPause = 5;      // seconds
 constexpr double kMostStepsOfPause = 20;
@@ -167,12 +168,17 @@ class Judge {
         for (std::size_t i = 1; i < points.size(); ++i) path += metres(points[i - 1], points[i]);
         return path > 0 && metres(points.front(), points.back()) >= kLeastHeadway * path;
     }
-    /// Of each step, or of all together where that is less: single steps of noise are fast.
+    /// That of the whole way, as single steps of noise are fast; where one step is half of the way or more, that of
+    /// each step.
     void add_speeds(const Track& track, std::size_t first, std::size_t last, std::vector<Median>& speeds) const {
-        const double together = speed(track.points[first], track.points[last]);
+        const std::span<const TrackPoint> points = track.points;
+        const double together = speed(points[first], points[last]), way = metres(points[first], points[last]);
+        double longest = 0;
+        for (std::size_t i = first + 1; i <= last; ++i) longest = std::max(longest, metres(points[i - 1], points[i]));
         for (std::size_t i = first + 1; i <= last; ++i) {
-            const double here = std::min(together, speed(track.points[i - 1], track.points[i]));
-            if (here > 0) speeds.push_back({here, &track, track.points[i].line});
+            const double here = speed(points[i - 1], points[i]);
+            if (here > 0)
+                speeds.push_back({2 * longest < way ? together : std::min(together, here), &track, points[i].line});
         }
     }
 
@@ -278,6 +284,28 @@ class Judge {
     static bool is_same_place(const TrackPoint& a, const TrackPoint& b) { return a.x == b.x && a.y == b.y; }
     static bool is_lost_place(const TrackPoint& at) { return (at.x == -1 && at.y == -1) || (at.x == 0 && at.y == 0); }
 
+    /// How far a row is off the line from the one to the other beside it, file units.
+    static double off_line(const TrackPoint& a, const TrackPoint& row, const TrackPoint& b) {
+        const double s = (row.frame - a.frame) / (b.frame - a.frame);
+        return std::hypot(a.x + s * (b.x - a.x) - row.x, a.y + s * (b.y - a.y) - row.y);
+    }
+
+    /// The median of all rows, metres.
+    double noise_of_file() {
+        if (!noise_of_file_) {
+            std::size_t rows = 0;
+            for (const Track& track : file_.tracks) rows += track.points.size();
+            const std::size_t every = rows / kMostSpeeds + 1;
+            off_line_.clear();
+            for (const Track& track : file_.tracks) {
+                for (std::size_t i = 1; i + 1 < track.points.size(); i += every)
+                    off_line_.push_back(off_line(track.points[i - 1], track.points[i], track.points[i + 1]));
+            }
+            noise_of_file_ = off_line_.empty() ? 0 : median(off_line_) * scale_.metres;
+        }
+        return *noise_of_file_;
+    }
+
     /// How far off rows beside points `from` and `at` are, metres: of each row from the line through those beside it,
     /// or one farther where that is less, as of somebody who is in two places by turns. Places that a tracker repeats
     /// count once.
@@ -293,15 +321,14 @@ class Judge {
                     if (!rows.empty() && is_pause(*rows.back(), points[i])) break;
                     if (rows.empty() || !is_same_place(*rows.back(), points[i])) rows.push_back(&points[i]);
                 }
-                for (std::size_t i = stride; i + stride < rows.size(); ++i) {
-                    const TrackPoint &a = *rows[i - stride], &b = *rows[i], &c = *rows[i + stride];
-                    const double s = (b.frame - a.frame) / (c.frame - a.frame);
-                    off_line_.push_back(std::hypot(a.x + s * (c.x - a.x) - b.x, a.y + s * (c.y - a.y) - b.y));
-                }
+                for (std::size_t i = stride; i + stride < rows.size(); ++i)
+                    off_line_.push_back(off_line(*rows[i - stride], *rows[i], *rows[i + stride]));
             }
             if (!off_line_.empty()) least = std::min(least, median(off_line_) * scale_.metres);
+            if (stride == 1 && off_line_.size() < kFewestNoise)
+                return std::max(noise_of_file(), least == kNoLimit ? 0 : least);
         }
-        return least == kNoLimit ? 0 : least;
+        return least;
     }
 
     /// Longer ways, in metres, from point `from` to `at` are neither its class's, nor what trackers catch up, nor
@@ -608,7 +635,8 @@ class Judge {
     std::vector<double> limits_;        ///< by track, m/s
     std::unordered_map<const Track*, std::vector<Run>> broken_;
     std::set<Place> jumped_to_, lost_;
-    std::vector<double> speeds_;    ///< of a track
+    std::vector<double> speeds_;  ///< of a track
+    std::optional<double> noise_of_file_;
     std::vector<double> off_line_;  ///< metres, of rows
     Worst jumps_, fast_, pauses_, clock_, off_;
     std::vector<Hole> holes_;   ///< clock steps, in order

@@ -21,7 +21,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kMostColumns = 1024;  // a line of a million is refused early
+constexpr std::size_t kRowsOfHeight = 10'000;  // that tell which way is up
+constexpr std::size_t kMostColumns = 1024;     // a line of a million is refused early
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 // Heads are so high, in metres; standing children and adults on stairs included.
 constexpr double kLowestHead = 0.8;
@@ -321,7 +322,36 @@ class TextRows final : public Cells {
             if (rows_.empty()) first_scope_ = scope;
             needs_scopes_ = !is_weak_scope_ && scope != first_scope_;
         }
-        return rows_.add(*this);
+        if (!rows_.add(*this)) return false;
+        if (height_ && looked_at_ < kRowsOfHeight) look_at_height();
+        return true;
+    }
+
+    /// How far places go in x, y and z: where y points up they go in x and z.
+    void look_at_height() {
+        ++looked_at_;
+        for (std::size_t i = 0; i < spread_.size(); ++i) {
+            const std::size_t column = i == 2 ? *height_ : *rows_[i == 0 ? Column::x : Column::y]->only_column();
+            std::string text(fields_[column].text);
+            if (separator_ != ',') std::ranges::replace(text, ',', '.');
+            const std::optional<double> at = parse_double(text);
+            if (!at) continue;
+            Spread& of = spread_[i];
+            of.changes += *at != of.last;
+            of = {std::min(of.least, *at), std::max(of.most, *at), *at, of.changes};
+        }
+    }
+    /// What is said then.
+    void tell_height() {
+        constexpr std::size_t kFewest = 10;  // places
+        constexpr double kFlat = 0.01, kGoes = 0.25;
+        const auto length = [](const Spread& of) { return of.most - of.least; };
+        const auto& [x, y, z] = spread_;
+        if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
+        const std::string &flat = names_[*rows_[Column::y]->only_column()], &ground = names_[*height_];
+        warnings_.push_back({"the column " + in_quotes(flat) + " hardly changes and " + in_quotes(ground) +
+                                 " does: if " + flat + " points up, as in Unity, give columns (y=" + ground + ")",
+                             "columns"});
     }
 
     /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.
@@ -450,6 +480,10 @@ class TextRows final : public Cells {
         }
         if (rows_[Column::t]) rows_[Column::frame].reset();
         date_ = rows_[Column::t] ? column_with("date") : std::nullopt;
+        for (const char* name : {"z", "posz", "zpos", "positionz", "zposition", "coordz", "zcoord"}) {
+            const bool has_places = rows_[Column::x]->only_column() && rows_[Column::y]->only_column();
+            if (!height_ && has_places && header_line_ > 0 && !options_.columns) height_ = column_with(name);
+        }
         find_scopes();
     }
 
@@ -477,10 +511,10 @@ class TextRows final : public Cells {
 
     void find_scopes() {
         if (header_line_ == 0 || !rows_[Column::id] || options_.columns) return;
-        constexpr std::array<std::string_view, 21> kScopes{
-            "recordingid", "recording", "sceneid",    "scene",   "caseid",    "case",    "sequenceid",
-            "sequence",    "sessionid", "session",    "videoid", "video",     "runid",   "run",
-            "trialid",     "trial",     "experiment", "episode", "episodeid", "dataset", "location"};
+        constexpr std::array<std::string_view, 23> kScopes{
+            "recordingid", "recording", "sceneid",   "scene",   "caseid", "case",   "sequenceid", "sequence",
+            "sessionid",   "session",   "videoid",   "video",   "runid",  "run",    "trialid",    "trial",
+            "experiment",  "episode",   "episodeid", "dataset", "take",   "takeid", "location"};
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const std::string word = plain_name(names_[i]).word;
             if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
@@ -493,8 +527,8 @@ class TextRows final : public Cells {
         std::vector<std::string> said;
         for (const std::size_t scope : scopes_) said.push_back(names_[scope]);
         warnings_.push_back({"ids are one's within " + quoted_list(said) +
-                                 " alone and are told with it, as '0/17'; all are in one place and by one clock: leave "
-                                 "out what is not",
+                                 " alone and are told with it, as '0/17': who is in different ones was never there "
+                                 "together and does not meet; give columns (id=...) if that is wrong",
                              "columns"});
     }
 
@@ -644,6 +678,7 @@ class TextRows final : public Cells {
     /// The tracks, and what is said of the columns.
     TrackFile finished() {
         TrackFile out = rows_.finish();
+        if (height_) tell_height();
         std::vector<bool> used(names_.size(), header_line_ == 0);
         for (const Column column : kColumns) {
             const std::optional<ColumnFormula>& made = rows_[column];
@@ -878,6 +913,13 @@ class TextRows final : public Cells {
     std::string first_scope_;
 
     // Of rows of numbers alone:
+    struct Spread {
+        double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest(), last = kUnread;
+        std::size_t changes = 0;  ///< rows whose place is another than that of the row before
+    };
+    std::optional<std::size_t> height_;  ///< the column z of a table with x and y
+    std::array<Spread, 3> spread_;       ///< of x, y and z
+    std::size_t looked_at_ = 0;          ///< rows, for that
     const RowFormat* format_ = nullptr;
     std::optional<std::size_t> heads_;  ///< the column of their heights
     std::vector<double> heights_;

@@ -265,11 +265,12 @@ class TrackClipMaker {
         out.headings = std::move(headings);
         out.floor = part.floor;
         out.id = part.id;
+        out.floor = track.scope;
         if (!file_.alone)
             out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
         out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(usual_motion(file_)));
         out.facts = std::move(facts);
-        out.facts.invented = invented(part, grid, begin, out.clip->duration());
+        out.facts.invented = invented(part, grid, begin, *out.clip);
         return out;
     }
 
@@ -285,7 +286,8 @@ class TrackClipMaker {
     /// SourceFacts::invented of a clip whose first sample is `begin` seconds after the first point. Of uneven tracks
     /// only what lies in pauses was not seen.
     std::vector<std::pair<double, double>> invented(const TrackPart& part, const TrackGrid& grid, double begin,
-                                                    double duration) const {
+                                                    const mobb::Clip& clip) const {
+        const double duration = clip.duration();
         std::vector<std::pair<double, double>> out;
         if (file_.alone) return out;
         const auto time = [&](std::size_t i) {
@@ -299,13 +301,25 @@ class TrackClipMaker {
             const double length = std::hypot(b.x - a.x, b.y - a.y) * common_.unit;
             if (!filled && !(length > part.fastest * (time(i) - time(i - 1)))) continue;
             const double from = std::max(time(i - 1), 0.0), to = std::min(time(i), duration);
-            if (from >= to) continue;
-            if (!out.empty() && out.back().second >= from) {
-                out.back().second = to;
+            if (from < to) out.emplace_back(from, to);
+        }
+        // What is between samples may begin before a step that is too fast, and end behind it.
+        const std::span<const mobb::Disk> samples = clip.samples();
+        for (std::size_t i = 1; i < samples.size(); ++i) {
+            const double length = std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
+            const auto at = static_cast<double>(i);
+            if (length > part.fastest * clip.dt()) out.emplace_back((at - 1) * clip.dt(), at * clip.dt());
+        }
+        std::ranges::sort(out);
+        std::size_t kept = 0;
+        for (std::size_t i = 1; i < out.size(); ++i) {
+            if (out[kept].second + mobb::kMinOverlap >= out[i].first) {
+                out[kept].second = std::max(out[kept].second, out[i].second);
             } else {
-                out.emplace_back(from, to);
+                out[++kept] = out[i];
             }
         }
+        out.resize(std::min(out.size(), kept + 1));
         return out;
     }
 

@@ -56,6 +56,7 @@ struct Track {
     std::string id;
     std::vector<TrackPoint> points;  ///< at least one
     std::string label{};             ///< its class, as the file names it; empty where it does not
+    std::string scope{};             ///< of a file of several recordings: which one, "rec1"; empty: there is one
 
     int first_line() const { return points.front().line; }
 };
@@ -126,6 +127,8 @@ class TrackCollector {
     /// all of them take more than the budget.
     void add(std::string_view id, TrackPoint point, std::string_view label = {}, const PointDetail* detail = nullptr);
     bool empty() const { return tracks_.empty(); }
+    /// The track that had a point last; there must be one.
+    Track& last() { return tracks_[last_]; }
 
     /// The tracks, each in order of its frames; `once`: without rows that say the same again. Throws InputError, naming
     /// the line, if a track is at two places in one frame; `twice` says so of the first one, up to the line of it.
