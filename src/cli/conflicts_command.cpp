@@ -6,8 +6,10 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 #include <conflicts/plan_conflicts.h>
 #include <crowd/simulation/simulate.h>
+#include <import/import.h>
 #include <mobb_tracks/encounter.h>
 #include <mobb_tracks/parts.h>
 #include <scene/scene_edits.h>
@@ -67,55 +69,32 @@ Scene crowd_in(Scene scene, const ConflictsCommandArguments& arguments) {
     return scene;
 }
 
-/// The radius of every disk in metres, if it is one.
-std::optional<double> common_radius(const Scene& scene) {
-    std::optional<double> radius;
-    for (const Agent& agent : scene.agents) {
-        for (const mobb::Disk& disk : scene.clips[static_cast<std::size_t>(agent.clip)].clip->samples()) {
-            if (radius && *radius != disk.r) return std::nullopt;
-            radius = disk.r;
-        }
-    }
-    return radius;
+/// Whether a file is tracks, or a table, of which no scene need be made.
+bool is_tracks(const std::filesystem::path& file) {
+    if (is_scene_file(file)) return false;
+    const std::optional<Contents> contents = contents_of(file);
+    return contents && *contents != Contents::skeletons;
 }
 
-/// Who is who: a person of a run whose clips differ in dt, or are linear, is several agents of the scene.
-class People {
-  public:
-    explicit People(const Scene& scene) {
-        for (const Agent& agent : scene.agents) {
-            const bool goes_on = agent.run_agent >= 0 && !of_.empty() && agent.run_agent == of_.back();
-            if (!goes_on) {
-                names_.push_back(agent.name);
-                samples_ = 0;
-            }
-            of_.push_back(static_cast<int>(names_.size()) - 1);
-            before_.push_back(samples_);
-            samples_ += scene.clips[static_cast<std::size_t>(agent.clip)].clip->count();
-        }
-    }
-
-    std::span<const int> of_agents() const { return of_; }  ///< by agent of the scene
-    std::size_t count() const { return names_.size(); }
-    const std::string& name(int person) const { return names_[static_cast<std::size_t>(person)]; }
-    /// A sample of an agent, counted from the first of all that the person walks.
-    int sample(int agent, int sample) const { return before_[static_cast<std::size_t>(agent)] + sample; }
-
-  private:
-    std::vector<std::string> names_;
-    std::vector<int> of_;
-    std::vector<int> before_;  ///< by agent: samples of the same person's earlier ones
-    int samples_ = 0;
-};
+Crowd crowd_of_tracks(const ConflictsCommandArguments& arguments) {
+    Crowd out(arguments.file);
+    ClipWarnings warnings;
+    each_scene_clip(arguments.file, arguments.import_options, [&](const SceneClip& clip) {
+        warnings.add(clip);
+        out.add(clip, {clip.name, 0, {.start = clip.start}, {}});
+    });
+    warnings.print(shown_name(arguments.file));
+    return out;
+}
 
 /// When nobody was seen to move as one of two agents does (SourceFacts::invented), global seconds.
 class InventedMotion {
   public:
-    InventedMotion(const Scene& scene, int a, int b) {
+    InventedMotion(const Crowd& crowd, int a, int b) {
         for (const int index : {a, b}) {
-            const Agent& agent = scene.agents[static_cast<std::size_t>(index)];
-            for (const auto& [from, to] : scene.clips[static_cast<std::size_t>(agent.clip)].facts.invented)
-                spans_.push_back({agent.placement.start + from, agent.placement.start + to});
+            const CrowdMember& member = crowd.members()[static_cast<std::size_t>(index)];
+            for (const auto& [from, to] : member.invented)
+                spans_.push_back({member.placement.start + from, member.placement.start + to});
         }
         std::ranges::sort(spans_, {}, &mobb::Interval::t0);
     }
@@ -137,8 +116,8 @@ class InventedMotion {
 };
 
 /// Whether a conflict rests on it: where the two overlap deepest, or all the time.
-bool is_invented(const Scene& scene, const mobb::PeopleConflict& conflict) {
-    const InventedMotion invented(scene, conflict.deepest.a, conflict.deepest.b);
+bool is_invented(const Crowd& crowd, const mobb::PeopleConflict& conflict) {
+    const InventedMotion invented(crowd, conflict.deepest.a, conflict.deepest.b);
     return invented.holds(conflict.deepest.time) ||
            std::ranges::all_of(conflict.intervals, [&](const mobb::Interval& of) { return invented.covers(of); });
 }
@@ -151,8 +130,7 @@ std::optional<std::int64_t> unforced_in(const Scene& scene) {
 }
 
 struct Findings {
-    const Scene& scene;
-    const People& people;
+    const Crowd& crowd;
     const mobb::PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
     std::vector<std::size_t> listed{};     ///< indices of conflicts
@@ -160,7 +138,7 @@ struct Findings {
 
     void list(bool strict_motion) {
         for (std::size_t i = 0; i < conflicts.size(); ++i) {
-            if (strict_motion && is_invented(scene, conflicts[i])) continue;
+            if (strict_motion && is_invented(crowd, conflicts[i])) continue;
             listed.push_back(i);
             if (strict_motion) seconds += conflicts[i].seconds();
         }
@@ -173,21 +151,13 @@ struct Findings {
         const mobb::Disk b = mobb::swept(clip(conflict.b), conflict.b_sample).at(conflict.time);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
-    /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
-    std::optional<double> t0() const {
-        const SceneClip& clip = scene.clips.front();
-        if (is_scene_file(scene.file)) return std::nullopt;
-        // Of takes each has its own.
-        return clip.facts.first_key ? std::optional(*clip.facts.first_key - clip.start) : clip.facts.t0;
-    }
-    int a_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
-    int b_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
+    const CrowdMember& member(int index) const { return crowd.members()[static_cast<std::size_t>(index)]; }
+    /// A sample, counted from the first of all that the person walks.
+    int a_sample(const mobb::Conflict& conflict) const { return member(conflict.a).samples_before + conflict.a_sample; }
+    int b_sample(const mobb::Conflict& conflict) const { return member(conflict.b).samples_before + conflict.b_sample; }
 
     bool of_plan(const mobb::Conflict& conflict) const {
-        const auto from_plan = [this](int agent) {
-            return is_plan(scene.clips[static_cast<std::size_t>(scene.agents[static_cast<std::size_t>(agent)].clip)]);
-        };
-        return from_plan(conflict.a) && from_plan(conflict.b);
+        return member(conflict.a).of_plan && member(conflict.b).of_plan;
     }
 };
 
@@ -212,15 +182,15 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
     const mobb::Conflict& deepest = conflict.deepest;
     ListedConflict out{conflict.a,
                        conflict.b,
-                       findings.people.name(conflict.a),
-                       findings.people.name(conflict.b),
+                       findings.member(deepest.a).name,
+                       findings.member(deepest.b).name,
                        conflict.intervals,
                        deepest.least_clearance,
                        deepest.time,
                        findings.a_sample(deepest),
                        findings.b_sample(deepest),
                        findings.position(deepest),
-                       is_invented(findings.scene, conflict),
+                       is_invented(findings.crowd, conflict),
                        std::nullopt,
                        std::nullopt,
                        std::nullopt};
@@ -236,19 +206,20 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
 /// Refers to the findings.
 ConflictListing listing_of(const Findings& findings, const ConflictsCommandArguments& arguments) {
     const mobb::PeopleConflicts& found = findings.conflicts;
-    return {shown_name(findings.scene.file),
-            findings.t0(),
-            findings.people.count(),
-            common_radius(findings.scene),
+    const Crowd& crowd = findings.crowd;
+    return {shown_name(crowd.file()),
+            crowd.t0(),
+            crowd.people(),
+            crowd.common_radius(),
             found.pairs(),
             found.pairs_tested(),
             findings.seconds,
-            findings.scene.clips.front().facts.doubt,
+            crowd.doubt(),
             findings.unforced,
             arguments.within,
             arguments.least_seconds,
             arguments.part,
-            arguments.part ? crowd_digest(findings.scene) : 0,
+            arguments.part ? crowd.digest() : 0,
             arguments.strict_motion ? std::optional(found.size() - findings.listed.size()) : std::nullopt,
             findings.listed.size(),
             [&findings, within = arguments.within](std::size_t i) {
@@ -257,12 +228,17 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
-    Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
-    const std::optional<std::int64_t> unforced = unforced_in(loaded);
-    const bool walks_plays = loaded.crowd != nullptr;
-    const Scene scene = crowd_in(std::move(loaded), arguments);
-    std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
-    const People people(scene);
+    std::optional<Scene> scene;
+    std::optional<std::int64_t> unforced;
+    bool walks_plays = false;
+    if (arguments.fit.tree || !is_tracks(arguments.file)) {
+        Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+        unforced = unforced_in(loaded);
+        walks_plays = loaded.crowd != nullptr;
+        scene = crowd_in(std::move(loaded), arguments);
+    }
+    const Crowd crowd = scene ? Crowd(*scene) : crowd_of_tracks(arguments);
+    std::vector<mobb::PlacedClip> clips = crowd.placed();
     mobb::ConflictSearch search;
     search.within = arguments.within.value_or(0);
     search.least_seconds = arguments.least_seconds.value_or(0);
@@ -275,7 +251,7 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
             throw InputError(arguments.file,
                              "a run is not searched in parts, as its people walk several paths; leave --part out");
         if (search.direct) throw InputError(arguments.file, "--tree brute searches all; leave it or --part out");
-        search.region = mobb::region_of_part(crowd, arguments.part->part - 1, arguments.part->parts);
+        search.region = mobb::region_of_part(clips, arguments.part->part - 1, arguments.part->parts);
     }
     search.progress = tell("looked at", "paths");
     search.spend = spend_on_conflicts();
@@ -283,12 +259,12 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     std::optional<FittedScene> trees;
     std::vector<mobb::PlacedTree> placed;
     if (arguments.fit.tree) {
-        trees = fitted(scene, arguments.fit);
+        trees = fitted(*scene, arguments.fit);
         for (const PlacedAgent& who : trees->placed_agents()) placed.push_back(trees->placed(who));
         search.trees = placed;
     }
-    const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_agents(), search);
-    Findings findings{scene, people, conflicts, unforced};
+    const mobb::PeopleConflicts conflicts(std::move(clips), crowd.person_of(), search);
+    Findings findings{crowd, conflicts, unforced};
     findings.list(arguments.strict_motion);
     write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json
                                                    : arguments.csv                  ? ListingFormat::csv

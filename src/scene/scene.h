@@ -133,6 +133,11 @@ bool is_scene_file(const std::filesystem::path& file);
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {},
                  Importer* importer = nullptr);
 
+/// Gives the clips of a file that is no scene one by one, each as load_scene has it, and holds little more than them.
+/// Throws likewise.
+void each_scene_clip(const std::filesystem::path& file, const ImportOptions& overrides,
+                     const std::function<void(SceneClip&& clip)>& sink);
+
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   const ImportOptions& overrides = {}, const Progress& progress = {}, Importer* importer = nullptr);

@@ -1,5 +1,6 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
 #include <base/file.h>
+#include <base/input.h>
 #include <base/json.h>
 #include <base/sentences.h>
 #include <base/text.h>
@@ -554,21 +555,7 @@ class SceneReader {
 
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
-    std::vector<ImportWarning> warnings;
-    const ImportOptions options = overrides_for(file, overrides, warnings);
-    import_each(file, options, [&](ImportedClip&& imported) {
-        SceneClip clip{imported.name,
-                       file.filename().string(),
-                       options,
-                       std::move(imported.clip),
-                       std::move(imported.facts),
-                       std::move(imported.skeleton),
-                       imported.start};
-        append(clip.facts.warnings, warnings);
-        if (!imported.id.empty()) clip.options.id = imported.id;
-        if (!imported.animation.empty()) clip.options.animation = imported.animation;
-        if (!imported.root.empty()) clip.options.root = imported.root;
-        name_own_radius(clip);
+    each_scene_clip(file, overrides, [&](SceneClip&& clip) {
         if (clip.facts.t0) {
             const auto index = static_cast<int>(scene.clips.size());
             scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
@@ -591,6 +578,27 @@ bool is_scene_file(const std::filesystem::path& file) {
     const std::string begin = read_beginning(file, kHead);
     const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return first != std::string::npos && begin[first] == '{' && !contents_of(file);
+}
+
+void each_scene_clip(const std::filesystem::path& file, const ImportOptions& overrides,
+                     const std::function<void(SceneClip&& clip)>& sink) {
+    std::vector<ImportWarning> warnings;
+    const ImportOptions options = overrides_for(file, overrides, warnings);
+    import_each(file, options, [&](ImportedClip&& imported) {
+        SceneClip clip{imported.name,
+                       file.filename().string(),
+                       options,
+                       std::move(imported.clip),
+                       std::move(imported.facts),
+                       std::move(imported.skeleton),
+                       imported.start};
+        append(clip.facts.warnings, warnings);
+        if (!imported.id.empty()) clip.options.id = imported.id;
+        if (!imported.animation.empty()) clip.options.animation = imported.animation;
+        if (!imported.root.empty()) clip.options.root = imported.root;
+        name_own_radius(clip);
+        sink(std::move(clip));
+    });
 }
 
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress,

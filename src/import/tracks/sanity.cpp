@@ -119,6 +119,7 @@ class Judge {
         : file_(file), scale_(scale), longest_pause_(longest_pause(step_seconds())) {}
 
     JudgedTracks judged() {
+        out_.parts.reserve(file_.tracks.size());
         if (file_.format == "mapf") {
             for (const Track& track : file_.tracks) out_.parts.push_back({&track, track.id, track.points, kNoLimit});
             return std::move(out_);

@@ -5,22 +5,30 @@
 
 namespace mobbscope {
 
+namespace {
+
+/// Twice as much room, as usual, would be empty for the most part where there are many short tracks.
+template <class T>
+void append(std::vector<T>& to, T one) {
+    if (to.size() == to.capacity()) to.reserve(to.size() + std::max<std::size_t>(to.size() / 4, 4));
+    to.push_back(std::move(one));
+}
+
+}  // namespace
+
 void TrackCollector::add(std::string_view id, const TrackPoint& point, std::string_view label) {
     // Many files have a track's points one after another.
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
         if (is_new) {
-            tracks_.push_back({std::string(id), {}, std::string(label)});
+            append(tracks_, Track{std::string(id), {}, std::string(label)});
             used_ += kBytesOfTrack + 4 * id.size();
         }
         last_ = at->second;
     }
     used_ += kBytesOfPoint;
     spent_.cover(used_, "its rows", file_);
-    std::vector<TrackPoint>& points = tracks_[last_].points;
-    // Twice as much would be empty for the most part where there are many short tracks.
-    if (points.size() == points.capacity()) points.reserve(points.size() + std::max<std::size_t>(points.size() / 4, 4));
-    points.push_back(point);
+    append(tracks_[last_].points, point);
 }
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
