@@ -154,10 +154,8 @@ void read_bvh(const std::string& bytes) { use_motions(bvh_motion(parse_bvh(bytes
 
 void read_tracks(const FileReader& reader, const std::string& bytes) {
     const ImportOptions options = some_options(bytes, reader.contents);
-    InputBytes input;
-    input.bytes = bytes;
     // What lies beside a file does so beside the folder of seeds.
-    const ParsedFile parsed = reader.parse(kSeedFolder / reader.name, std::move(input));
+    const ParsedFile parsed = reader.parse(kSeedFolder / reader.name, bytes);
     parsed.offer(options);
     use_clips(parsed.clips(options));
 }

@@ -1,14 +1,15 @@
 /// Whole files, read and written.
 #pragma once
 
-#include <base/budget.h>
-
 #include <cstddef>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -20,22 +21,16 @@ void check_file_name(const std::filesystem::path& file);
 /// unreadable, no regular file or beyond 2 GiB.
 std::string read_file(const std::filesystem::path& file);
 
+/// What read_file is made of, each of which throws likewise: a file that is open, and how large it is; all of it.
+using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+std::pair<FileHandle, std::uintmax_t> open_to_read(const std::filesystem::path& file);
+std::string read_all(std::FILE* in, std::uintmax_t size, const std::string& name);
+inline constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31;
+void check_file_size(std::uintmax_t size, const std::string& name);
+[[noreturn]] void fail_to_read(const std::string& name);  ///< as errno says
+
 /// Whether a name stands for standard input: "-", where a command takes a scene or a clip.
 bool is_standard_input(const std::filesystem::path& file);
-
-/// What a command works on, and what unpacking it takes of the budget.
-struct InputBytes {
-    std::string bytes;
-    Spent spent{};
-};
-
-/// The bytes of a file that a command works on, which may be standard input; those that gzip packed come unpacked.
-/// Standard input is read once and kept. Throws InputError as read_file does, and for packed bytes that are damaged,
-/// cut off, or grow beyond what a table would, or beyond the budget.
-InputBytes read_input(const std::filesystem::path& file);
-
-/// At most the first `most` bytes of that; "" if there is no such file, or none that can be read.
-std::string read_beginning(const std::filesystem::path& file, std::size_t most);
 
 /// Whether standard output goes to a file, of any name: results would replace it.
 bool is_standard_output(const std::filesystem::path& file);

@@ -387,7 +387,14 @@ ScriptLine split_line(std::string_view line) {
 
 std::string at_line(int line) { return "line " + std::to_string(line); }
 
-TextLines::TextLines(std::string_view text, const std::string& file) : rest_(text), file_(file) {
+TextLines::TextLines(std::string_view text, const std::string& file) : rest_(text), file_(file) { check(); }
+
+TextLines::TextLines(TextPieces more, const std::string& file) : file_(file), more_(std::move(more)) {
+    take_piece();
+    check();
+}
+
+void TextLines::check() {
     if (rest_.starts_with("\xff\xfe") || rest_.starts_with("\xfe\xff")) {
         throw InputError(file_, at_line(1), "is UTF-16 text; save it as UTF-8");
     }
@@ -397,19 +404,29 @@ TextLines::TextLines(std::string_view text, const std::string& file) : rest_(tex
     }
 }
 
+bool TextLines::take_piece() {
+    if (!more_) return false;
+    buffer_.erase(0, buffer_.size() - rest_.size());
+    if (!more_(buffer_)) more_ = nullptr;
+    rest_ = buffer_;
+    return more_ != nullptr;
+}
+
 bool TextLines::next() {
-    while (!rest_.empty()) {
-        const std::size_t end = rest_.find('\n');
+    for (;;) {
+        std::size_t end = rest_.find('\n');
+        for (std::size_t known = rest_.size(); end == std::string_view::npos && take_piece(); known = rest_.size())
+            end = rest_.find('\n', known);
+        if (rest_.empty()) return false;
         whole_ = rest_.substr(0, end);
         if (whole_.ends_with('\r')) whole_.remove_suffix(1);
         line_ = trimmed(whole_);
-        rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
         ++number_;
         if (line_.find('\0') != std::string_view::npos)
             fail("holds a NUL byte; this is not a text file, or a damaged one");
         if (!line_.empty()) return true;
     }
-    return false;
 }
 
 void TextLines::fail(const std::string& message) const { throw InputError(file_, at_line(number_), message); }

@@ -132,6 +132,9 @@ inline constexpr std::size_t kMaxColumns = 64;
 /// "line 12": a place in a file.
 std::string at_line(int line);
 
+/// Appends the next piece of a text; false at the end.
+using TextPieces = std::function<bool(std::string& to)>;
+
 /// The lines of a file that are not blank, without blanks at their ends. A byte order mark and carriage returns do not
 /// matter.
 class TextLines {
@@ -139,9 +142,15 @@ class TextLines {
     /// `file` stands for the file in messages; both must outlive this. Throws InputError, as next does, for what is no
     /// UTF-8 text by its looks: UTF-16, lines that end with carriage returns alone.
     TextLines(std::string_view text, const std::string& file);
+    /// The same of a text that comes in pieces.
+    TextLines(TextPieces more, const std::string& file);
+    TextLines(const TextLines&) = delete;
+    TextLines& operator=(const TextLines&) = delete;
 
-    /// Moves to the next line that is not blank; false at the end. Throws InputError if it holds a NUL byte.
+    /// Moves to the next line that is not blank; false at the end. Throws InputError if it holds a NUL byte. Of a text
+    /// in pieces the line before is gone then.
     bool next();
+    bool empty() const { return rest_.empty() && number_ == 0; }  ///< the whole text
 
     std::string_view line() const { return line_; }
     std::string_view whole_line() const { return whole_; }  ///< with the blanks at its ends
@@ -151,9 +160,14 @@ class TextLines {
     [[noreturn]] void fail(const std::string& message) const;
 
   private:
+    void check();
+    bool take_piece();
+
     std::string_view rest_;
     const std::string& file_;
     std::string_view line_, whole_;
+    TextPieces more_;
+    std::string buffer_;  ///< of a text in pieces: what is at hand of it
     int number_ = 0;
 };
 

@@ -6,8 +6,10 @@
 #include <cli/options.h>
 #include <cli/program.h>
 #include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 #include <conflicts/plan_conflicts.h>
 #include <crowd/simulation/simulate.h>
+#include <import/import.h>
 #include <mobb_tracks/encounter.h>
 #include <mobb_tracks/parts.h>
 #include <scene/scene_edits.h>
@@ -67,68 +69,32 @@ Scene crowd_in(Scene scene, const ConflictsCommandArguments& arguments) {
     return scene;
 }
 
-/// The radius of every disk in metres, if it is one.
-std::optional<double> common_radius(const Scene& scene) {
-    std::optional<double> radius;
-    for (const PlacedAgent& path : placed_members(scene)) {
-        for (const mobb::Disk& disk : path_of(scene, path)->samples()) {
-            if (radius && *radius != disk.r) return std::nullopt;
-            radius = disk.r;
-        }
-    }
-    return radius;
+/// Whether a file is tracks, or a table, of which no scene need be made.
+bool is_tracks(const std::filesystem::path& file) {
+    if (is_scene_file(file)) return false;
+    const std::optional<Contents> contents = contents_of(file);
+    return contents && *contents != Contents::skeletons;
 }
 
-/// Who is who: a person of a run whose clips differ in dt, or are linear, is several agents of the scene; an agent with
-/// a body walks several paths at once.
-class People {
-  public:
-    explicit People(const Scene& scene) : paths_(placed_members(scene)) {
-        int last = -1;  // the person's run agent
-        for (std::size_t path = 0; path < paths_.size(); ++path) {
-            const int agent = paths_[path].agent;
-            if (path > 0 && agent == paths_[path - 1].agent) {
-                of_.push_back(of_.back());
-                before_.push_back(before_.back());
-                continue;
-            }
-            const int run_agent = scene.agents[static_cast<std::size_t>(agent)].run_agent;
-            const bool goes_on = run_agent >= 0 && path > 0 && run_agent == last;
-            before_.push_back(goes_on ? before_.back() + path_of(scene, paths_[path - 1])->count() : 0);
-            if (!goes_on) names_.push_back(paths_[path].name);
-            of_.push_back(static_cast<int>(names_.size()) - 1);
-            last = run_agent;
-        }
-    }
-
-    std::span<const PlacedAgent> paths() const { return paths_; }
-    std::span<const int> of_paths() const { return of_; }  ///< by path
-    std::size_t count() const { return names_.size(); }
-    const std::string& name(int person) const { return names_[static_cast<std::size_t>(person)]; }
-    int agent(int path) const { return paths_[static_cast<std::size_t>(path)].agent; }  ///< of the scene
-    /// The paths of a path's agent: the first, and the one behind the last.
-    std::pair<int, int> members(int path) const {
-        const auto range = std::ranges::equal_range(paths_, agent(path), {}, &PlacedAgent::agent);
-        return {static_cast<int>(range.begin() - paths_.begin()), static_cast<int>(range.end() - paths_.begin())};
-    }
-    /// A sample of a path, counted from the first of all that the person walks.
-    int sample(int path, int sample) const { return before_[static_cast<std::size_t>(path)] + sample; }
-
-  private:
-    std::vector<PlacedAgent> paths_;
-    std::vector<std::string> names_;
-    std::vector<int> of_;
-    std::vector<int> before_;  ///< by path: samples of the same person's earlier agents
-};
+Crowd crowd_of_tracks(const ConflictsCommandArguments& arguments) {
+    Crowd out(arguments.file);
+    ClipWarnings warnings;
+    each_scene_clip(arguments.file, arguments.import_options, [&](const SceneClip& clip, const Agent& agent) {
+        warnings.add(clip);
+        out.add(clip, agent);
+    });
+    warnings.print(shown_name(arguments.file));
+    return out;
+}
 
 /// When nobody was seen to move as one of two agents does (SourceFacts::invented), global seconds.
 class InventedMotion {
   public:
-    InventedMotion(const Scene& scene, int a, int b) {
-        for (const int index : {a, b}) {
-            const Agent& agent = scene.agents[static_cast<std::size_t>(index)];
-            for (const auto& [from, to] : scene.clips[static_cast<std::size_t>(agent.clip)].facts.invented)
-                spans_.push_back({agent.placement.start + from, agent.placement.start + to});
+    InventedMotion(const Crowd& crowd, int a, int b) {
+        for (const int path : {a, b}) {
+            const CrowdWalker& walker = crowd.agent_of(path);
+            for (const auto& [from, to] : walker.invented)
+                spans_.push_back({walker.placement.start + from, walker.placement.start + to});
         }
         std::ranges::sort(spans_, {}, &mobb::Interval::t0);
     }
@@ -150,8 +116,8 @@ class InventedMotion {
 };
 
 /// Whether a conflict rests on it: where the two overlap deepest, or all the time.
-bool is_invented(const Scene& scene, const People& people, const mobb::PeopleConflict& conflict) {
-    const InventedMotion invented(scene, people.agent(conflict.deepest.a), people.agent(conflict.deepest.b));
+bool is_invented(const Crowd& crowd, const mobb::PeopleConflict& conflict) {
+    const InventedMotion invented(crowd, conflict.deepest.a, conflict.deepest.b);
     return invented.holds(conflict.deepest.time) ||
            std::ranges::all_of(conflict.intervals, [&](const mobb::Interval& of) { return invented.covers(of); });
 }
@@ -164,8 +130,7 @@ std::optional<std::int64_t> unforced_in(const Scene& scene) {
 }
 
 struct Findings {
-    const Scene& scene;
-    const People& people;
+    const Crowd& crowd;
     const mobb::PeopleConflicts& conflicts;
     std::optional<std::int64_t> unforced;  ///< see unforced_in
     std::vector<std::size_t> listed{};     ///< indices of conflicts
@@ -173,7 +138,7 @@ struct Findings {
 
     void list(bool strict_motion) {
         for (std::size_t i = 0; i < conflicts.size(); ++i) {
-            if (strict_motion && is_invented(scene, people, conflicts[i])) continue;
+            if (strict_motion && is_invented(crowd, conflicts[i])) continue;
             listed.push_back(i);
             if (strict_motion) seconds += conflicts[i].seconds();
         }
@@ -186,21 +151,12 @@ struct Findings {
         const mobb::Disk b = mobb::swept(clip(conflict.b), conflict.b_sample).at(conflict.time);
         return {(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
-    /// Of tracks: time 0 on their file's own clock, seconds. The agents of a scene start when the scene says.
-    std::optional<double> t0() const {
-        const SceneClip& clip = scene.clips.front();
-        if (is_scene_file(scene.file)) return std::nullopt;
-        // Of takes each has its own.
-        return clip.facts.first_key ? std::optional(*clip.facts.first_key - clip.start) : clip.facts.t0;
-    }
-    int a_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.a, conflict.a_sample); }
-    int b_sample(const mobb::Conflict& conflict) const { return people.sample(conflict.b, conflict.b_sample); }
+    /// A sample, counted from the first of all that the person walks.
+    int a_sample(const mobb::Conflict& of) const { return crowd.path(of.a).samples_before + of.a_sample; }
+    int b_sample(const mobb::Conflict& of) const { return crowd.path(of.b).samples_before + of.b_sample; }
 
     bool of_plan(const mobb::Conflict& conflict) const {
-        const auto from_plan = [this](int path) {
-            return is_plan(scene.clips[static_cast<std::size_t>(people.paths()[static_cast<std::size_t>(path)].clip)]);
-        };
-        return from_plan(conflict.a) && from_plan(conflict.b);
+        return crowd.agent_of(conflict.a).of_plan && crowd.agent_of(conflict.b).of_plan;
     }
 };
 
@@ -232,8 +188,8 @@ void tell_times(const Findings& findings, const mobb::PeopleConflict& conflict, 
     const mobb::PlacedClip &clip_a = findings.clip(deepest.a), &clip_b = findings.clip(deepest.b);
     mobb::MaybeSeconds course = mobb::time_to_collision(clip_a, clip_b, deepest, within);
     mobb::MaybeSeconds encroachment = mobb::post_encroachment_time(clip_a, clip_b, deepest);
-    const auto [first_a, end_a] = findings.people.members(deepest.a);
-    const auto [first_b, end_b] = findings.people.members(deepest.b);
+    const auto [first_a, end_a] = findings.crowd.paths_beside(deepest.a);
+    const auto [first_b, end_b] = findings.crowd.paths_beside(deepest.b);
     for (int a = first_a; a < end_a; ++a) {
         for (int b = first_b; b < end_b; ++b) {
             if (a == deepest.a && b == deepest.b) continue;
@@ -254,15 +210,15 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
     const mobb::Conflict& deepest = conflict.deepest;
     ListedConflict out{conflict.a,
                        conflict.b,
-                       findings.people.name(conflict.a),
-                       findings.people.name(conflict.b),
+                       findings.crowd.name(conflict.a),
+                       findings.crowd.name(conflict.b),
                        conflict.intervals,
                        deepest.least_clearance,
                        deepest.time,
                        findings.a_sample(deepest),
                        findings.b_sample(deepest),
                        findings.position(deepest),
-                       is_invented(findings.scene, findings.people, conflict),
+                       is_invented(findings.crowd, conflict),
                        std::nullopt,
                        std::nullopt,
                        std::nullopt};
@@ -274,19 +230,20 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
 /// Refers to the findings.
 ConflictListing listing_of(const Findings& findings, const ConflictsCommandArguments& arguments) {
     const mobb::PeopleConflicts& found = findings.conflicts;
-    return {shown_name(findings.scene.file),
-            findings.t0(),
-            findings.people.count(),
-            common_radius(findings.scene),
+    const Crowd& crowd = findings.crowd;
+    return {shown_name(crowd.file()),
+            crowd.t0(),
+            crowd.people(),
+            crowd.common_radius(),
             found.pairs(),
             found.pairs_tested(),
             findings.seconds,
-            doubts_in(findings.scene),
+            crowd.doubts(),
             findings.unforced,
             arguments.within,
             arguments.least_seconds,
             arguments.part,
-            arguments.part ? crowd_digest(findings.scene) : 0,
+            arguments.part ? crowd.digest() : 0,
             arguments.strict_motion ? std::optional(found.size() - findings.listed.size()) : std::nullopt,
             findings.listed.size(),
             [&findings, within = arguments.within](std::size_t i, bool figures) {
@@ -295,12 +252,16 @@ ConflictListing listing_of(const Findings& findings, const ConflictsCommandArgum
 }
 
 int run_conflicts(const ConflictsCommandArguments& arguments) {
-    Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
-    const std::optional<std::int64_t> unforced = unforced_in(loaded);
-    const Scene scene = crowd_in(std::move(loaded), arguments);
-    const People people(scene);
-    std::vector<mobb::PlacedClip> crowd = placed_clips(scene);
-    const std::vector<int> floors = floors_of(scene);
+    std::optional<Scene> scene;
+    std::optional<std::int64_t> unforced;
+    if (arguments.fit.tree || !is_tracks(arguments.file)) {
+        Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+        unforced = unforced_in(loaded);
+        scene = crowd_in(std::move(loaded), arguments);
+    }
+    const Crowd crowd = scene ? Crowd(*scene) : crowd_of_tracks(arguments);
+    std::vector<mobb::PlacedClip> clips = crowd.placed();
+    const std::vector<int> floors = crowd.floor_of();
     mobb::ConflictSearch search;
     search.within = arguments.within.value_or(0);
     search.least_seconds = arguments.least_seconds.value_or(0);
@@ -311,7 +272,7 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
                          "trees find who collides and not who comes near; leave --tree or --within out");
     if (arguments.part) {
         if (search.direct) throw InputError(arguments.file, "--tree brute searches all; leave it or --part out");
-        search.region = mobb::region_of_part(crowd, arguments.part->part - 1, arguments.part->parts);
+        search.region = mobb::region_of_part(clips, arguments.part->part - 1, arguments.part->parts);
     }
     search.progress = tell("looked at", "paths");
     search.spend = spend_on_conflicts();
@@ -319,12 +280,12 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     std::optional<FittedScene> trees;
     std::vector<mobb::PlacedTree> placed;
     if (arguments.fit.tree) {
-        trees = fitted(scene, arguments.fit);
-        for (const PlacedAgent& path : people.paths()) placed.push_back(trees->placed(path));
+        trees = fitted(*scene, arguments.fit);
+        for (const PlacedAgent& path : placed_members(*scene)) placed.push_back(trees->placed(path));
         search.trees = placed;
     }
-    const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_paths(), search);
-    Findings findings{scene, people, conflicts, unforced};
+    const mobb::PeopleConflicts conflicts(std::move(clips), crowd.person_of(), search);
+    Findings findings{crowd, conflicts, unforced};
     findings.list(arguments.strict_motion);
     write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json
                                                    : arguments.csv                  ? ListingFormat::csv

@@ -49,63 +49,53 @@ mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
     return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples), clip.motion());
 }
 
-/// The clip whose held steps are too long by most, and how many there are of them.
-void print_held_warning(const Scene& scene, const std::string& name) {
-    const SceneClip* worst = nullptr;
-    double most = 0;
-    std::size_t count = 0;
-    for (const SceneClip& clip : scene.clips) {
-        const std::optional<HeldStep> step = longest_held_step(*clip.clip);
-        if (!step) continue;
-        ++count;
-        if (worst && step->length - step->radius <= most) continue;
-        most = step->length - step->radius;
-        worst = &clip;
-    }
-    if (!worst) return;
-    std::vector<ImportWarning> warnings;
-    warn_of_long_held_step(*worst->clip, warnings);
-    const std::string others = count > 1 ? " (and " + counted(count - 1, "more clip", "more clips") + ")" : "";
-    warn(name + ": clip " + in_quotes(worst->name) + others + ": " + warnings.front().text);
+void print_warnings(const Scene& scene, const std::string& name) {
+    ClipWarnings warnings;
+    for (const SceneClip& clip : scene.clips) warnings.add(clip);
+    warnings.print(name);
 }
 
-/// A warning, and of how many clips.
-struct ClipsWarning {
-    ImportWarning warning;  ///< its line is the first clip's, its samples are those of all
-    const SceneClip* first = nullptr;
-    std::size_t clips = 0;
-};
+}  // namespace
 
-/// One line a text, whatever the number of clips it holds for.
-void print_warnings(const Scene& scene, const std::string& name) {
-    print_held_warning(scene, name);
-    std::vector<ClipsWarning> all;
-    std::unordered_map<std::string, std::size_t> by_text;
-    for (const SceneClip& clip : scene.clips) {
-        for (const ImportWarning& warning : clip.facts.warnings) {
-            // Its figures differ from clip to clip.
-            if (warning.option == "motion") continue;
-            const auto [at, is_new] = by_text.try_emplace(warning.text, all.size());
-            if (is_new) all.push_back({warning, &clip, 0});
-            ClipsWarning& known = all[at->second];
-            if (known.clips++ > 0) known.warning.samples += warning.samples;
+void ClipWarnings::add(const SceneClip& clip) {
+    ++clips_;
+    if (const std::optional<HeldStep> step = longest_held_step(*clip.clip)) {
+        const double by = step->length - step->radius;
+        if (held_.clips++ == 0 || by > most_) {
+            most_ = by;
+            std::vector<ImportWarning> warnings;
+            warn_of_long_held_step(*clip.clip, warnings);
+            held_ = {warnings.front(), clip.name, held_.clips};
         }
     }
-    for (const ClipsWarning& each : all) {
-        std::string whose = "clip " + in_quotes(each.first->name) + ": ";
+    for (const ImportWarning& warning : clip.facts.warnings) {
+        // Its figures differ from clip to clip.
+        if (warning.option == "motion") continue;
+        const auto [at, is_new] = by_text_.try_emplace(warning.text, all_.size());
+        if (is_new) all_.push_back({warning, clip.name, 0});
+        Told& known = all_[at->second];
+        if (known.clips++ > 0) known.warning.samples += warning.samples;
+    }
+}
+
+void ClipWarnings::print(const std::string& file) const {
+    if (held_.clips > 0) {
+        const std::string others =
+            held_.clips > 1 ? " (and " + counted(held_.clips - 1, "more clip", "more clips") + ")" : "";
+        warn(file + ": clip " + in_quotes(held_.first) + others + ": " + held_.warning.text);
+    }
+    for (const Told& each : all_) {
+        std::string whose = "clip " + in_quotes(each.first) + ": ";
         if (each.clips > 1) {
-            whose = each.clips == scene.clips.size()
-                        ? ""
-                        : "of " + std::to_string(scene.clips.size()) + " clips " + std::to_string(each.clips) +
-                              ", such as " + in_quotes(each.first->name) + ": ";
+            whose = each.clips == clips_ ? ""
+                                         : "of " + std::to_string(clips_) + " clips " + std::to_string(each.clips) +
+                                               ", such as " + in_quotes(each.first) + ": ";
         }
-        std::string line = name;
+        std::string line = file;
         line.append(": ").append(whose).append(said(each.warning));
         warn(line);
     }
 }
-
-}  // namespace
 
 mobb::FitOptions FitArguments::over(mobb::FitOptions fit) const {
     fit.tree = tree.value_or(fit.tree);

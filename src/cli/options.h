@@ -16,6 +16,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 namespace mobbscope::cli {
 
@@ -113,6 +115,26 @@ struct DrawingArguments {
 /// Adds --size --scale --theme --backend. `drawing` has what holds without them, and must live until the command has
 /// run.
 void add_drawing_options(Command& command, DrawingArguments& drawing);
+
+/// What is said of clips: one line a text, whatever the number of clips it holds for.
+class ClipWarnings {
+  public:
+    void add(const SceneClip& clip);
+    /// To standard error; `file`: its name for messages.
+    void print(const std::string& file) const;
+
+  private:
+    struct Told {
+        ImportWarning warning{};  ///< its line is the first clip's, its samples are those of all
+        std::string first{};      ///< the name of that clip
+        std::size_t clips = 0;
+    };
+    std::size_t clips_ = 0;
+    Told held_;  ///< held steps that are too long; the first clip is the worst
+    double most_ = 0;
+    std::vector<Told> all_;
+    std::unordered_map<std::string, std::size_t> by_text_;  ///< indices of all_
+};
 
 /// Which clips the radius of the import options is for.
 enum class RadiusOf { imported_clips, every_clip };

@@ -1,4 +1,5 @@
 #include <base/file.h>
+#include <base/input.h>
 #include <base/text.h>
 #include <cli/command_line.h>
 #include <cli/options.h>

@@ -3,14 +3,12 @@
 #include <base/file.h>
 #include <base/text.h>
 #include <conflicts/conflicts.h>
-#include <mobb/capture.h>
 #include <mobb/predicate.h>
 #include <mobb/traversal.h>
 #include <scene/crowd_scene.h>
 #include <scene/motion_graph.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -125,20 +123,6 @@ std::vector<SceneConflict> conflicts_in(const Scene& scene, const Progress& prog
         out.push_back({a.path, b.path, a.play, b.play, a.joint, b.joint, std::move(found)});
     }
     return out;
-}
-
-std::uint64_t crowd_digest(const Scene& scene) {
-    std::vector<mobb::Disk> numbers;
-    for (const PlacedAgent& path : placed_members(scene)) {
-        const mobb::Clip& clip = *path_of(scene, path);
-        const std::uint64_t of = mobb::digest(clip.dt(), clip.samples(), clip.motion());
-        const mobb::Placement& at = path.placement;
-        numbers.push_back({static_cast<double>(of >> 32), static_cast<double>(of & 0xffffffff), at.start});
-        numbers.push_back({at.translate.x, at.translate.y, at.rotate_deg});
-        if (path.member > 0) numbers.push_back({static_cast<double>(path.member), 0, 0});
-    }
-    for (const int floor : floors_of(scene)) numbers.push_back({static_cast<double>(floor), 0, 0});
-    return mobb::digest(0, numbers, mobb::Motion::held);
 }
 
 std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conflict) {

@@ -34,10 +34,6 @@ struct SceneConflict {
     double begin() const { return facts.worst().t0; }  ///< of that contact, global seconds
 };
 
-/// The same for the same crowd: of each agent's paths the digests (mobb::digest), in two halves, and placements, and
-/// its floor.
-std::uint64_t crowd_digest(const Scene& scene);
-
 /// Where the two touch first in that contact: x, y, and when; none if one of them is not there. `scene`: of the
 /// conflict.
 std::optional<glm::dvec3> place_of(const Scene& scene, const SceneConflict& conflict);

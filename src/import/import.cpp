@@ -1,5 +1,6 @@
 #include <base/error.h>
 #include <base/file.h>
+#include <base/input.h>
 #include <base/text.h>
 #include <import/bvh/bvh.h>
 #include <import/clip/held_steps.h>
@@ -31,7 +32,7 @@ namespace mobbscope {
 namespace {
 
 MotionFile read_bvh(std::string_view text, const std::string& file) { return bvh_motion(parse_bvh(text, file)); }
-TableFile read_table(std::string text, const std::string& file) { return {std::move(text), file}; }
+TableFile read_table(const Input& text, const std::string& file) { return {text, file}; }
 
 /// ParsedFile::each and ParsedFile::offer of what was read.
 void give(const MotionFile& motion, const std::filesystem::path& file, const ImportOptions& options,
@@ -56,13 +57,22 @@ ImportOffer offer_of(const TableFile& table, const std::filesystem::path& file, 
     return track_offer(*table.table(options), file, options);
 }
 
+/// What was read, not yet asked.
 template <auto read>
-ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
-    using Parsed = decltype(read(std::move(input.bytes), file.string()));
-    const auto parsed = std::make_shared<Parsed>(read(std::move(input.bytes), file.string()));
-    // A table keeps its text.
-    const auto spent =
-        std::make_shared<const Spent>(std::is_same_v<Parsed, TableFile> ? std::move(input.spent) : Spent());
+auto parsed_by(const Input& input, const std::string& file) {
+    // Rows come line by line.
+    if constexpr (std::is_invocable_v<decltype(read), const Input&, const std::string&>) {
+        return read(input, file);
+    } else {
+        return read(input.all().bytes, file);
+    }
+}
+
+template <auto read>
+ParsedFile parse_once(const std::filesystem::path& file, const Input& input) {
+    using Parsed = decltype(parsed_by<read>(input, file.string()));
+    const auto parsed = std::make_shared<Parsed>(parsed_by<read>(input, file.string()));
+    if constexpr (std::is_same_v<Parsed, TrackFile>) parsed->is_large = input.is_large();
     const auto checked = [file](const ImportOptions& options) {
         at_place(file.string(), "", [&] { check(options); });
         if (options.columns && !std::is_same_v<Parsed, TableFile>)
@@ -71,7 +81,6 @@ ParsedFile parse_once(const std::filesystem::path& file, InputBytes input) {
     };
     return {[=](const ImportOptions& options, const ClipSink& sink, bool last) {
                 checked(options);
-                static_cast<void>(spent);
                 const auto judged = [&](ImportedClip&& clip) {
                     warn_of_long_held_step(*clip.clip, clip.facts.warnings);
                     at_place(file.string(), clip.id.empty() ? "" : "track " + in_quotes(clip.id),
@@ -282,8 +291,8 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
         throw InputError(file.string(), "", "no such file or folder; check the path");
     const char* what = "no reader for this kind of file";
     if (format || is_there) {
-        InputBytes input = read_input(file);
-        const std::string& bytes = input.bytes;
+        const Input input = Input::open(file);
+        std::string bytes = input.beginning(kHead);
         if (bytes.empty() && !format) throw InputError(file.string(), "", "is empty; give a table or tracks");
         const FileReader* reader = reader_of(bytes, is_motion);
         if (!reader && is_motion) reader = format->reader;
@@ -292,7 +301,8 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
             if (const auto kind = foreign_kind(bytes)) throw InputError(file.string(), "", *kind);
             if (format) reader = format->reader;
         }
-        if (reader) return reader->parse(file, std::move(input));
+        if (reader) return reader->parse(file, input);
+        bytes = input.all().bytes;
         const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
         if (is_utf8(bytes) && std::ranges::none_of(bytes, is_control))
             what = "looks like text, but no table with a header such as id,t,x,y, no rows of numbers and no plan";

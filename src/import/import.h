@@ -1,7 +1,7 @@
 /// Files to clips, whatever their format.
 #pragma once
 
-#include <base/file.h>
+#include <base/input.h>
 #include <import/clip/import_options.h>
 #include <import/clip/imported_clip.h>
 #include <import/tracks/tracks.h>
@@ -47,7 +47,7 @@ struct ParsedFile {
 /// One kind of file, whatever its name: a row of the table of formats.
 struct FileReader {
     std::string_view name;  ///< of its fuzz target
-    ParsedFile (*parse)(const std::filesystem::path&, InputBytes input);
+    ParsedFile (*parse)(const std::filesystem::path&, const Input& input);
     Contents contents;
     bool (*holds)(std::string_view);  ///< whether bytes are of this kind, by the first 64 KiB of them
     FormatNote note{};                ///< of tracks

@@ -44,15 +44,21 @@ void refuse_bodies(const Scene& scene, const std::string& what) {
                          " is of single disks; remove the body, or leave the clip out");
 }
 
-std::vector<int> floors_of(const Scene& scene) {
+std::vector<int> numbered_floors(std::span<const std::string> floors) {
     std::unordered_map<std::string_view, int> numbers;
     std::vector<int> out;
-    if (std::ranges::all_of(scene.agents, [](const Agent& agent) { return agent.floor.empty(); })) return out;
-    for (const Agent& agent : scene.agents) {
+    if (std::ranges::all_of(floors, &std::string::empty)) return out;
+    for (const std::string& floor : floors) {
         const int next = static_cast<int>(numbers.size()) + 1;
-        out.push_back(agent.floor.empty() ? 0 : numbers.try_emplace(agent.floor, next).first->second);
+        out.push_back(floor.empty() ? 0 : numbers.try_emplace(floor, next).first->second);
     }
     return out;
+}
+
+std::vector<int> floors_of(const Scene& scene) {
+    std::vector<std::string> floors;
+    for (const Agent& agent : scene.agents) floors.push_back(agent.floor);
+    return numbered_floors(floors);
 }
 
 AskedPairs::AskedPairs(const Scene& scene)

@@ -121,7 +121,9 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
-/// The floors of the agents as numbers from 1 on, 0 where nobody says; empty where nobody says of any.
+/// Names of floors as numbers from 1 on, 0 where nobody says; empty where nobody says of any.
+std::vector<int> numbered_floors(std::span<const std::string> floors);
+/// Those of the agents.
 std::vector<int> floors_of(const Scene& scene);
 /// Whether two such numbers are of different floors.
 inline bool are_apart(int floor_a, int floor_b) { return floor_a != floor_b && floor_a != 0 && floor_b != 0; }
@@ -181,6 +183,11 @@ bool is_scene_file(const std::filesystem::path& file);
 /// them then. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {},
                  Importer* importer = nullptr);
+
+/// Gives the clips of a file that is no scene one by one, each as load_scene has it with an agent that would play it,
+/// and holds little more than them. Throws likewise.
+void each_scene_clip(const std::filesystem::path& file, const ImportOptions& overrides,
+                     const std::function<void(SceneClip&& clip, Agent&& agent)>& sink);
 
 /// Parses the text of a scene. `name` stands for the file in messages; sources are taken relative to `folder`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,

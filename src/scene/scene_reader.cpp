@@ -1,6 +1,7 @@
 // Scene files read: JSON to Scene, with every complaint at its place.
 #include <base/budget.h>
 #include <base/file.h>
+#include <base/input.h>
 #include <base/json.h>
 #include <base/sentences.h>
 #include <base/text.h>
@@ -621,6 +622,33 @@ class SceneReader {
 
 Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& overrides) {
     Scene scene;
+    each_scene_clip(file, overrides, [&](SceneClip&& clip, Agent&& agent) {
+        if (clip.facts.t0) {
+            agent.clip = static_cast<int>(scene.clips.size());
+            scene.agents.push_back(std::move(agent));
+        }
+        scene.clips.push_back(std::move(clip));
+    });
+    lay_out_clips(scene);
+    return scene;
+}
+
+}  // namespace
+
+bool is_scene_file(const std::filesystem::path& file) {
+    if (!is_standard_input(file)) {
+        // A file may be called like a link to a step, and what is no scene like one.
+        const std::filesystem::path plain = without_link(file);
+        return unpacked_extension(plain) == ".json" && !contents_of(plain);
+    }
+    constexpr std::size_t kHead = 100;  // bytes
+    const std::string begin = read_beginning(file, kHead);
+    const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    return first != std::string::npos && begin[first] == '{' && !contents_of(file);
+}
+
+void each_scene_clip(const std::filesystem::path& file, const ImportOptions& overrides,
+                     const std::function<void(SceneClip&& clip, Agent&& agent)>& sink) {
     std::vector<ImportWarning> warnings;
     const ImportOptions options = overrides_for(file, overrides, warnings);
     Spent bodies;
@@ -642,29 +670,10 @@ Scene scene_of_clips(const std::filesystem::path& file, const ImportOptions& ove
         if (!imported.animation.empty()) clip.options.animation = imported.animation;
         if (!imported.root.empty()) clip.options.root = imported.root;
         name_own_radius(clip);
-        if (clip.facts.t0) {
-            const auto index = static_cast<int>(scene.clips.size());
-            scene.agents.push_back({clip.name, index, {.start = clip.start}, std::nullopt});
-            scene.agents.back().floor = std::move(imported.floor);
-        }
-        scene.clips.push_back(std::move(clip));
+        Agent agent{clip.name, 0, {.start = clip.start}, std::nullopt};
+        agent.floor = std::move(imported.floor);
+        sink(std::move(clip), std::move(agent));
     });
-    lay_out_clips(scene);
-    return scene;
-}
-
-}  // namespace
-
-bool is_scene_file(const std::filesystem::path& file) {
-    if (!is_standard_input(file)) {
-        // A file may be called like a link to a step, and what is no scene like one.
-        const std::filesystem::path plain = without_link(file);
-        return unpacked_extension(plain) == ".json" && !contents_of(plain);
-    }
-    constexpr std::size_t kHead = 100;  // bytes
-    const std::string begin = read_beginning(file, kHead);
-    const std::size_t first = begin.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-    return first != std::string::npos && begin[first] == '{' && !contents_of(file);
 }
 
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides, const Progress& progress,

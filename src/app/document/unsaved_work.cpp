@@ -1,5 +1,6 @@
 #include <app/document/unsaved_work.h>
 #include <base/file.h>
+#include <base/input.h>
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>

@@ -83,6 +83,7 @@ class Judge {
         : file_(file), scale_(scale), storeys_(storeys), longest_pause_(longest_pause(step_seconds())) {}
 
     JudgedTracks judged() {
+        out_.parts.reserve(file_.tracks.size());
         if (file_.format == "mapf") {
             for (const Track& track : file_.tracks) add(track, track.points, kNoLimit, 0);
             tell();

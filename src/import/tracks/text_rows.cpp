@@ -129,8 +129,8 @@ std::size_t numbers_in(std::span<const Field> fields) {
 class TextRows final : public Cells {
   public:
     /// `scoped`: columns that tell recordings or scenes belong to the ids.
-    TextRows(std::string_view text, const std::string& file, const ImportOptions& options, bool scoped = false)
-        : Cells(file), is_blank_(text.empty()), lines_(text, file), options_(options), rows_(file), scoped_(scoped) {}
+    TextRows(const Input& text, const std::string& file, const ImportOptions& options, bool scoped = false)
+        : Cells(file), lines_(text.pieces(), file), options_(options), rows_(file), scoped_(scoped) {}
 
     /// Of a table whose header was read: whether it has such columns, and whether one is known to need them.
     bool has_scopes() const { return !scopes_.empty(); }
@@ -384,10 +384,10 @@ class TextRows final : public Cells {
 
     /// True if the header was a comment, and the line in hand is the first row.
     bool read_header() {
-        if (is_blank_)
+        if (lines_.empty())
             throw InputError(file_, at_line(1),
                              "the file is empty; give a header such as t,x,y,r and one sample a row");
-        std::string_view comment;
+        std::string comment;
         int comment_line = 0;
         bool found = false;
         while (!found && lines_.next()) {
@@ -890,7 +890,6 @@ class TextRows final : public Cells {
             otherwise;
     }
 
-    bool is_blank_;
     TextLines lines_;
     const ImportOptions& options_;
     RowReader rows_;
@@ -982,18 +981,21 @@ bool looks_like_text_tracks(std::string_view text) {
 
 std::span<const RowFormat> row_formats() { return kRowFormats; }
 
-TrackFile parse_csv(std::string_view text, const std::string& file, const ImportOptions& options) {
+TrackFile parse_csv(const Input& text, const std::string& file, const ImportOptions& options) {
+    std::optional<TrackFile> out;
     TextRows rows(text, file, options);
     try {
-        TrackFile out = rows.table();
-        if (!rows.needs_scopes()) return out;
+        out = rows.table();
+        if (rows.needs_scopes()) out.reset();
     } catch (const InputError&) {
         if (!rows.has_scopes()) throw;
     }
-    return TextRows(text, file, options, true).table();
+    if (!out) out = TextRows(text, file, options, true).table();
+    out->is_large = text.is_large();
+    return std::move(*out);
 }
 
-TrackFile parse_text_tracks(std::string_view text, const std::string& file) {
+TrackFile parse_text_tracks(const Input& text, const std::string& file) {
     const ImportOptions none;
     return TextRows(text, file, none).numbers();
 }

@@ -1,6 +1,7 @@
 /// Rows of text: tables, whose header names the columns, and the formats of rows of numbers alone.
 #pragma once
 
+#include <base/input.h>
 #include <import/clip/import_options.h>
 #include <import/tracks/tracks.h>
 
@@ -19,20 +20,20 @@ bool looks_like_table(std::string_view text);
 /// A table: a header row names columns, and one disk stands in each row after it. Of the options those that say what
 /// columns mean count: columns, and radius where it names one. `file` stands for the file in messages. Throws
 /// InputError naming line and column.
-TrackFile parse_csv(std::string_view text, const std::string& file, const ImportOptions& options = {});
+TrackFile parse_csv(const Input& text, const std::string& file, const ImportOptions& options = {});
 
 /// A file that is read anew where the options choose other columns than they did before. Safe from any number of
 /// threads.
 class TableFile {
   public:
-    TableFile(std::string text, const std::string& file) : text_(std::move(text)), file_(file) {}
+    TableFile(const Input& text, const std::string& file) : text_(text), file_(file) {}
     TableFile(TableFile&& other) noexcept : text_(std::move(other.text_)), file_(std::move(other.file_)) {}
 
     /// `takes`: it is not kept here. Throws InputError.
     std::shared_ptr<TrackFile> table(const ImportOptions& options, bool takes = false) const;
 
   private:
-    std::string text_;
+    Input text_;
     std::string file_;
     mutable std::mutex mutex_;
     mutable std::shared_ptr<TrackFile> last_;
@@ -57,7 +58,7 @@ std::span<const RowFormat> row_formats();
 bool looks_like_text_tracks(std::string_view text);
 
 /// Rows of one of those, or in the columns that a comment ahead of them names. Throws InputError naming the line.
-TrackFile parse_text_tracks(std::string_view text, const std::string& file);
+TrackFile parse_text_tracks(const Input& text, const std::string& file);
 
 /// A field as it must stand in a file (RFC 4180): quoted where it holds a comma, a quote, a line break, or a blank at
 /// an end.

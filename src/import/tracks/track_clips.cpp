@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -144,7 +145,8 @@ class TrackClipMaker {
         common_.warnings = file.warnings;
         std::size_t points = 0;
         for (const Track& track : file.tracks) points += track.points.size();
-        most_made_ = std::min(kMaxSamples, most_made(points));
+        if (file.is_large) most_stored_ = std::numeric_limits<std::size_t>::max();
+        most_made_ = std::min(most_stored_, most_made(points));
         most_filled_ = most_made_;
         if (!options_.fps) most_filled_ = std::min(most_made_, kMaxFill * points + kAlwaysFilled);
         if (!(clock_.duration() <= mobb::kMaxTime)) {
@@ -222,7 +224,7 @@ class TrackClipMaker {
             if (file_.alone && from > facts.duration) return std::nullopt;
         }
         if (first > last) return std::nullopt;
-        const std::size_t most = grid.has_gaps ? most_filled_ : resampled ? most_made_ : kMaxSamples;
+        const std::size_t most = grid.has_gaps ? most_filled_ : resampled ? most_made_ : most_stored_;
         if (last - first >= static_cast<double>(most - std::min(count_, most))) {
             throw std::invalid_argument("its times make more than " + std::to_string(most) +
                                         " samples; check them, or lower fps");
@@ -381,6 +383,7 @@ class TrackClipMaker {
     FrameClock clock_;
     JudgedTracks judged_;
     SourceFacts common_;                     ///< what holds for every track
+    std::size_t most_stored_ = kMaxSamples;  ///< samples that the file may have
     std::size_t most_made_ = kMaxSamples;    ///< samples that the file may become by resampling
     std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
     std::size_t count_ = 0;                  ///< samples made so far
@@ -404,7 +407,7 @@ void give_track_clips(TrackFile& tracks, const std::filesystem::path& file, cons
     auto track = tracks.tracks.begin();
     for (const TrackPart& part : parts) {
         // Parts are in the order of their tracks.
-        for (; spends && &*track != part.track; ++track) track->points = {};
+        for (; spends && &*track != part.track; ++track) std::vector<TrackPoint>().swap(track->points);
         if (options.id && part.id != *options.id) continue;
         found = true;
         const std::string place = at_line(part.first_line()) + (tracks.alone ? "" : ", track " + in_quotes(part.id));

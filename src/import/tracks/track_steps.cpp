@@ -38,15 +38,34 @@ class StepCounts {
         largest_ = std::max({largest_, std::abs(points.front().frame), std::abs(points.back().frame)});
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double step = points[i].frame - points[i - 1].frame;
-            if (counts_.empty() || counts_.back().step != step) counts_.push_back({step, 0});
+            if (counts_.empty() || counts_.back().step != step) {
+                if (counts_.size() >= most_) put_together();
+                counts_.push_back({step, 0});
+            }
             ++counts_.back().count;
         }
     }
     std::optional<double> most_frequent(double rounding);
 
   private:
+    /// Sorts, and makes one of equal steps: of a large file there are few different ones.
+    void put_together() {
+        std::ranges::sort(counts_, {}, &StepCount::step);
+        std::size_t last = 0;
+        for (std::size_t i = 1; i < counts_.size(); ++i) {
+            if (counts_[i].step == counts_[last].step) {
+                counts_[last].count += counts_[i].count;
+            } else {
+                counts_[++last] = counts_[i];
+            }
+        }
+        counts_.resize(std::min(counts_.size(), last + 1));
+        most_ = std::max(most_, 2 * counts_.size());
+    }
+
     std::vector<StepCount> counts_;
-    double largest_ = 0;  ///< of all times
+    std::size_t most_ = 4096;  ///< counts that are not put together
+    double largest_ = 0;       ///< of all times
 };
 
 /// With so many significant digits.
@@ -107,7 +126,7 @@ std::optional<double> steps_in(std::span<const TrackPoint> points, double step, 
 }  // namespace
 
 std::optional<double> StepCounts::most_frequent(double rounding) {
-    std::ranges::sort(counts_, {}, &StepCount::step);
+    put_together();
     const std::vector<StepCount>& counts = counts_;
     std::span<const StepCount> best;
     std::size_t most = 0;

@@ -5,12 +5,23 @@
 
 namespace mobbscope {
 
+namespace {
+
+/// Twice as much room, as usual, would be empty for the most part where there are many short tracks.
+template <class T>
+void append(std::vector<T>& to, T one) {
+    if (to.size() == to.capacity()) to.reserve(to.size() + std::max<std::size_t>(to.size() / 4, 4));
+    to.push_back(std::move(one));
+}
+
+}  // namespace
+
 void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view label, const PointDetail* detail) {
     // Many files have a track's points one after another.
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
         if (is_new) {
-            tracks_.push_back({std::string(id), {}, std::string(label)});
+            append(tracks_, Track{std::string(id), {}, std::string(label)});
             used_ += kBytesOfTrack + 4 * id.size();
         }
         last_ = at->second;
@@ -28,9 +39,7 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
         if (steps_back_++ == 0) back_line_ = point.line;
         back_by_ = std::max(back_by_, points.back().frame - point.frame);
     }
-    // Twice as much would be empty for the most part where there are many short tracks.
-    if (points.size() == points.capacity()) points.reserve(points.size() + std::max<std::size_t>(points.size() / 4, 4));
-    points.push_back(point);
+    append(points, point);
 }
 
 std::string TrackCollector::step_back() const {

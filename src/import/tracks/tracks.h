@@ -94,6 +94,7 @@ struct TrackFile {
 
     std::vector<ImportWarning> warnings{};  ///< what was ignored
     Spent spent{};                          ///< of the budget
+    bool is_large = false;                  ///< Input::is_large: the budget alone bounds its samples
 
     // Of tables:
     std::string id_column{};            ///< its name, "Vehicle_ID"
