@@ -46,7 +46,7 @@ std::vector<BodyDisk> rectangle_body(double length, double width) {
 
 double rectangle_excess(double length, double width) { return row_over(length, width).r - std::min(length, width) / 2; }
 
-double reach_of(std::span<const BodyDisk> body) {
+double body_reach(std::span<const BodyDisk> body) {
     double out = 0;
     for (const BodyDisk& disk : body) out = std::max(out, std::hypot(disk.forward, disk.left) + disk.r);
     return out;

@@ -27,7 +27,7 @@ std::vector<BodyDisk> rectangle_body(double length, double width);
 double rectangle_excess(double length, double width);
 
 /// Metres: the radius of the disk around the clip's centre that all disks of a body are within.
-double reach_of(std::span<const BodyDisk> body);
+double body_reach(std::span<const BodyDisk> body);
 
 /// The direction of motion at each sample, degrees: that of the shortest way of at least 0.1 m, and less is taken for
 /// noise. Who stands keeps the direction it had; before it first moves it has the first one that it will have; who

@@ -19,7 +19,7 @@ json car() {
     json clip{{"dt", 0.5}, {"motion", "linear"}};
     const auto body = mobb::rectangle_body(4.6, 1.9);
     for (const mobb::BodyDisk& disk : body) clip["body"].push_back({disk.forward, disk.left, disk.r});
-    for (int i = 0; i <= 8; ++i) clip["samples"].push_back({2.5 * i, 0, mobb::reach_of(body)});
+    for (int i = 0; i <= 8; ++i) clip["samples"].push_back({2.5 * i, 0, mobb::body_reach(body)});
     return clip;
 }
 

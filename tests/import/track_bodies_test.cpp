@@ -29,7 +29,7 @@ std::string floors_of(const std::vector<ImportedClip>& clips) {
 TEST(TrackBodies, LengthAndWidthBecomeDisksInARow) {
     const ImportedClip car = csv_clips(two_rows("length,width", "4.6,1.9"))[0];
     EXPECT_EQ(car.body, mobb::rectangle_body(4.6, 1.9));
-    EXPECT_EQ(car.clip->samples()[1].r, mobb::reach_of(car.body));
+    EXPECT_EQ(car.clip->samples()[1].r, mobb::body_reach(car.body));
     EXPECT_TRUE(car.headings.empty()) << "it looks where it goes";
     EXPECT_TRUE(warns(car, "1 body is of 4.6 x 1.9 m, as the columns 'length' and 'width' say"));
     EXPECT_TRUE(warns(car, "along the direction of motion; give radius for a plain disk"));

@@ -22,7 +22,7 @@ TEST(BodyTest, DisksCoverARectangleAndHardlyStandOut) {
             }
         }
         EXPECT_LE(rectangle_excess(length, width), 0.05 * std::min(length, width));
-        EXPECT_GE(reach_of(body), std::hypot(length, width) / 2 - 1e-12);
+        EXPECT_GE(body_reach(body), std::hypot(length, width) / 2 - 1e-12);
     }
     EXPECT_EQ(rectangle_body(0, 0), std::vector{BodyDisk{}});
     EXPECT_LE(rectangle_body(1e6, 1).size(), kMaxBodyDisks);

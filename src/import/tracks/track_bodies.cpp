@@ -66,7 +66,7 @@ TrackBody body_of(const TrackFile& file, const Track& track, double metres) {
     }
     std::vector<mobb::BodyDisk> disks = mobb::rectangle_body(size->length, size->width);
     for (mobb::BodyDisk& disk : disks) disk.forward -= file.place_is_front ? size->length / 2 : 0;
-    const double reach = mobb::reach_of(disks);
+    const double reach = mobb::body_reach(disks);
     if (disks.size() == 1 && !file.place_is_front) disks.clear();
     return {reach, std::move(disks)};
 }
