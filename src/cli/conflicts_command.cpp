@@ -83,41 +83,44 @@ std::optional<double> common_radius(const Scene& scene) {
 /// a body walks several paths at once.
 class People {
   public:
-    explicit People(const Scene& scene) : paths_(placed_members(scene)) {
+    explicit People(const Scene& scene) {
         int last = -1;  // the person's run agent
-        for (std::size_t path = 0; path < paths_.size(); ++path) {
-            const int agent = paths_[path].agent;
-            if (path > 0 && agent == paths_[path - 1].agent) {
+        int samples = 0;
+        for (const PlacedAgent& path : placed_members(scene)) {
+            agents_.push_back(path.agent);
+            if (path.member > 0) {
                 of_.push_back(of_.back());
                 before_.push_back(before_.back());
                 continue;
             }
-            const int run_agent = scene.agents[static_cast<std::size_t>(agent)].run_agent;
-            const bool goes_on = run_agent >= 0 && path > 0 && run_agent == last;
-            before_.push_back(goes_on ? before_.back() + path_of(scene, paths_[path - 1])->count() : 0);
-            if (!goes_on) names_.push_back(paths_[path].name);
+            const int run_agent = scene.agents[static_cast<std::size_t>(path.agent)].run_agent;
+            if (run_agent < 0 || run_agent != last) {
+                names_.push_back(path.name);
+                samples = 0;
+            }
             of_.push_back(static_cast<int>(names_.size()) - 1);
+            before_.push_back(samples);
+            samples += path_of(scene, path)->count();
             last = run_agent;
         }
     }
 
-    std::span<const PlacedAgent> paths() const { return paths_; }
     std::span<const int> of_paths() const { return of_; }  ///< by path
     std::size_t count() const { return names_.size(); }
     const std::string& name(int person) const { return names_[static_cast<std::size_t>(person)]; }
-    int agent(int path) const { return paths_[static_cast<std::size_t>(path)].agent; }  ///< of the scene
+    int agent(int path) const { return agents_[static_cast<std::size_t>(path)]; }  ///< of the scene
     /// The paths of a path's agent: the first, and the one behind the last.
     std::pair<int, int> members(int path) const {
-        const auto range = std::ranges::equal_range(paths_, agent(path), {}, &PlacedAgent::agent);
-        return {static_cast<int>(range.begin() - paths_.begin()), static_cast<int>(range.end() - paths_.begin())};
+        const auto range = std::ranges::equal_range(agents_, agent(path));
+        return {static_cast<int>(range.begin() - agents_.begin()), static_cast<int>(range.end() - agents_.begin())};
     }
     /// A sample of a path, counted from the first of all that the person walks.
     int sample(int path, int sample) const { return before_[static_cast<std::size_t>(path)] + sample; }
 
   private:
-    std::vector<PlacedAgent> paths_;
     std::vector<std::string> names_;
-    std::vector<int> of_;
+    std::vector<int> agents_;  ///< by path
+    std::vector<int> of_;      ///< by path
     std::vector<int> before_;  ///< by path: samples of the same person's earlier agents
 };
 
@@ -198,7 +201,8 @@ struct Findings {
 
     bool of_plan(const mobb::Conflict& conflict) const {
         const auto from_plan = [this](int path) {
-            return is_plan(scene.clips[static_cast<std::size_t>(people.paths()[static_cast<std::size_t>(path)].clip)]);
+            const Agent& agent = scene.agents[static_cast<std::size_t>(people.agent(path))];
+            return is_plan(scene.clips[static_cast<std::size_t>(agent.clip)]);
         };
         return from_plan(conflict.a) && from_plan(conflict.b);
     }
@@ -319,7 +323,7 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     std::vector<mobb::PlacedTree> placed;
     if (arguments.fit.tree) {
         trees = fitted(scene, arguments.fit);
-        for (const PlacedAgent& path : people.paths()) placed.push_back(trees->placed(path));
+        for (const PlacedAgent& path : placed_members(scene)) placed.push_back(trees->placed(path));
         search.trees = placed;
     }
     const mobb::PeopleConflicts conflicts(std::move(crowd), people.of_paths(), search);
