@@ -294,6 +294,7 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
     out.pairs = static_cast<std::size_t>(in.require("pairs").count());
     out.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
     in.require("warnings").each([&](const JsonPlace& one) { out.warnings.push_back(one.string()); });
+    if (const auto unforced = in.find("unforced")) out.unforced = unforced->count();
     if (const auto left_out = in.find("left_out")) out.left_out = static_cast<std::size_t>(left_out->count());
     out.within = optional_number(in, "within");
     out.least_seconds = optional_number(in, "min_duration");
@@ -305,7 +306,7 @@ ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedC
 
 bool ConflictListing::is_of_the_same(const ConflictListing& other) const {
     const auto of = [](const ConflictListing& one) {
-        return std::tuple(one.file, one.digest, one.t0, one.agents, one.radius, one.pairs, one.within,
+        return std::tuple(one.file, one.digest, one.t0, one.agents, one.radius, one.pairs, one.unforced, one.within,
                           one.least_seconds, one.left_out.has_value(), one.part ? one.part->parts : 0);
     };
     return of(*this) == of(other);

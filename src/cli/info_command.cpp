@@ -53,6 +53,8 @@ void write_clip(JsonWriter& out, const Scene& scene, const SceneClip& clip) {
     out.member("motion", mobb::name(clip.clip->motion()));
     out.members("path_length", figures.length, "mean_speed", figures.mean_speed);
     out.members("min_radius", figures.min_radius, "mean_radius", figures.mean_radius, "max_radius", figures.max_radius);
+    if (!clip.body.empty())
+        out.list("body", clip.body, [&](const mobb::BodyDisk& disk) { out.tuple(disk.forward, disk.left, disk.r); });
     std::vector<std::string> warnings;
     for (const ImportWarning& warning : facts.warnings) warnings.push_back(said(warning));
     out.values("warnings", warnings);
@@ -117,6 +119,7 @@ void print_clip(const Scene& scene, const SceneClip& clip, const Warnings& commo
               << "  path         " << brief(figures.length) << " m at " << brief(figures.mean_speed) << " m/s\n"
               << "  radius       " << brief(figures.min_radius) << " to " << brief(figures.max_radius) << " m, mean "
               << brief(figures.mean_radius) << " m\n";
+    if (!clip.body.empty()) std::cout << "  body         " << body_words(clip) << '\n';
     list_warnings(facts.warnings, common);
 }
 

@@ -28,14 +28,15 @@ struct Walked {
 
 std::vector<Walked> walked_in(const Scene& scene) {
     std::vector<Walked> out;
-    int person = 0;
     if (!is_run(scene)) {
-        for (const PlacedAgent& who : placed_agents(scene)) {
-            for (const PlacedAgent& path : members_of(scene, who)) out.push_back({path, person});
-            ++person;
+        int person = -1;
+        for (PlacedAgent& path : placed_members(scene)) {
+            if (path.member <= 0) ++person;
+            out.push_back({std::move(path), person});
         }
         return out;
     }
+    int person = 0;
     for (const CrowdAgent& agent : scene.crowd->agents) {
         std::optional<PlayJoint> joint;
         for (std::size_t i = 0; i < agent.plays.size(); ++i) {
@@ -56,12 +57,6 @@ std::vector<Walked> walked_in(const Scene& scene) {
 }
 
 }  // namespace
-
-std::vector<PlacedAgent> placed_members(const Scene& scene) {
-    std::vector<PlacedAgent> out;
-    for (Walked& walked : walked_in(scene)) out.push_back(std::move(walked.path));
-    return out;
-}
 
 std::vector<mobb::PlacedClip> placed_clips(const Scene& scene) {
     std::vector<mobb::PlacedClip> out;

@@ -43,9 +43,7 @@ std::string sentence(const SceneConflict& conflict);
 /// The most that are kept at once, some 600 bytes each.
 inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
 
-/// The placed agents of a scene that is no run, those with bodies as each of their members.
-std::vector<PlacedAgent> placed_members(const Scene& scene);
-/// Their paths, as they place them. They refer to those of the scene.
+/// The paths of placed_members, as these place them. They refer to those of the scene.
 std::vector<mobb::PlacedClip> placed_clips(const Scene& scene);
 
 /// For mobb::ConflictSearch::spend: throws InputError where that is more than the budget (base/budget.h).

@@ -41,7 +41,7 @@ DrawnAgent make_drawn_agent(const FittedScene& fitted, const ViewState& view, co
                    color,
                    index,
                    clip.members.empty() ? clip.skeleton.get() : nullptr};
-    for (const mobb::ClipPtr& member : clip.members) out.members.emplace_back(*member, out.clip().placement());
+    out.members = drawn_members(scene, who, out.clip().placement());
     if (who.agent < 0) return out;
     const Agent& agent = scene.agents[static_cast<std::size_t>(who.agent)];
     out.run_agent = agent.run_agent;
@@ -86,6 +86,13 @@ mobb::Placement shown_placement(const FittedScene& fitted, const ViewState& view
     // What stands in the grid is an agent, or without agents a clip.
     const int index = who.agent >= 0 ? who.agent : who.clip;
     out.translate += fitted.grid()[static_cast<std::size_t>(index)].offset;
+    return out;
+}
+
+std::vector<mobb::PlacedClip> drawn_members(const Scene& scene, const PlacedAgent& who, const mobb::Placement& at) {
+    std::vector<mobb::PlacedClip> out;
+    for (const mobb::ClipPtr& member : scene.clips[static_cast<std::size_t>(who.clip)].members)
+        out.emplace_back(*member, at);
     return out;
 }
 

@@ -53,6 +53,9 @@ const std::string& name_in_view(const Scene& scene, const DrawnAgent& agent);
 /// Where a view shows an agent of the scene: where it is, or in its cell.
 mobb::Placement shown_placement(const FittedScene& fitted, const ViewState& view, const PlacedAgent& who);
 
+/// DrawnAgent::members of who is drawn at a placement.
+std::vector<mobb::PlacedClip> drawn_members(const Scene& scene, const PlacedAgent& who, const mobb::Placement& at);
+
 /// The colour of an agent: its own, or the palette's by index. None of them is an outcome's colour.
 Rgba agent_color(const Scene& scene, const PlacedAgent& who, int index);
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -45,6 +46,8 @@ std::shared_ptr<const NamedFit> fit_of(const Scene& scene, std::string name, con
     return std::make_shared<const NamedFit>(std::move(out));
 }
 
+constexpr std::size_t kMostKnown = 100'000;  // queries: all pairs of a crowd may be asked
+
 /// Metres between two paths where they come nearest; none if they share no time.
 std::optional<double> nearest_of(const mobb::PlacedClip& a, const mobb::PlacedClip& b) {
     const auto nearest = mobb::least_clearance(a, mobb::ClipDisks(a.clip()), b, mobb::ClipDisks(b.clip()));
@@ -55,9 +58,21 @@ std::optional<double> nearest_of(const mobb::PlacedClip& a, const mobb::PlacedCl
 
 SceneQuery QueryList::operator[](std::size_t index) const {
     SceneQuery out = query_at(*scene_, *pairs_, index);
-    const std::vector<PlacedAgent> of_a = members_of(*scene_, out.a), of_b = members_of(*scene_, out.b);
-    out.a = of_a.front();
-    out.b = of_b.front();
+    const auto has_body = [&](const PlacedAgent& who) {
+        return !scene_->clips[static_cast<std::size_t>(who.clip)].members.empty();
+    };
+    if (!has_body(out.a) && !has_body(out.b)) return out;
+    const std::lock_guard lock(known_->mutex);
+    if (known_->members.size() >= kMostKnown) known_->members.clear();
+    const auto [at, is_new] = known_->members.try_emplace(index);
+    if (is_new) at->second = asked_members(out);
+    std::tie(out.a.member, out.b.member) = at->second;
+    return out;
+}
+
+std::pair<int, int> QueryList::asked_members(const SceneQuery& query) const {
+    const std::vector<PlacedAgent> of_a = members_of(*scene_, query.a), of_b = members_of(*scene_, query.b);
+    std::pair<int, int> out{of_a.front().member, of_b.front().member};
     if (of_a.size() * of_b.size() == 1) return out;
     std::optional<double> first;  // seconds: the first contact
     std::optional<double> least;  // metres
@@ -73,8 +88,7 @@ SceneQuery QueryList::operator[](std::size_t index) const {
                 if (!nearest || (least && *nearest >= *least)) continue;
                 least = nearest;
             }
-            out.a.member = a.member;
-            out.b.member = b.member;
+            out = {a.member, b.member};
         }
     }
     return out;

@@ -10,6 +10,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace mobbscope {
@@ -31,8 +33,14 @@ struct NamedFit {
 /// are asked that collide first, of those that never do the two that come nearest, or the first that share time.
 class QueryList {
   public:
-    QueryList(const Scene& scene, const AskedPairs& pairs, const NamedFit& fit)
-        : scene_(&scene), pairs_(&pairs), fit_(&fit) {}
+    /// Which members are asked, by query; the window asks again and again.
+    struct Known {
+        std::mutex mutex;
+        std::unordered_map<std::size_t, std::pair<int, int>> members;
+    };
+
+    QueryList(const Scene& scene, const AskedPairs& pairs, const NamedFit& fit, Known& known)
+        : scene_(&scene), pairs_(&pairs), fit_(&fit), known_(&known) {}
 
     std::size_t size() const { return scene_->queries.empty() ? pairs_->size() : scene_->queries.size(); }
     bool empty() const { return size() == 0; }
@@ -40,9 +48,12 @@ class QueryList {
     SceneQuery operator[](std::size_t index) const;
 
   private:
+    std::pair<int, int> asked_members(const SceneQuery& query) const;
+
     const Scene* scene_;
     const AskedPairs* pairs_;
     const NamedFit* fit_;
+    Known* known_;
 };
 
 struct RecordedQuery;
@@ -88,7 +99,7 @@ class FittedScene {
         return fits_[in_use_]->tree(who);
     }
     /// What is asked; valid as long as this or a copy.
-    QueryList queries() const { return {*scene_, *asked_pairs_, *fits_[in_use_]}; }
+    QueryList queries() const { return {*scene_, *asked_pairs_, *fits_[in_use_], *known_members_}; }
     const std::vector<PlacedAgent>& placed_agents() const { return *placed_agents_; }  ///< what is drawn
 
     /// The cells of what is drawn, in its order; made when asked for. From any thread.
@@ -107,6 +118,7 @@ class FittedScene {
     std::shared_ptr<const Scene> scene_;
     std::shared_ptr<const std::vector<PlacedAgent>> placed_agents_;
     std::shared_ptr<const AskedPairs> asked_pairs_;
+    std::shared_ptr<QueryList::Known> known_members_ = std::make_shared<QueryList::Known>();
     struct Grid {
         std::once_flag made;
         std::vector<GridCell> cells;

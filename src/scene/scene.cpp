@@ -36,6 +36,11 @@ void make_members(SceneClip& clip) {
         clip.members.push_back(std::make_shared<const mobb::Clip>(mobb::member_of(*clip.clip, headings, disk)));
 }
 
+std::string body_words(const SceneClip& clip) {
+    return counted(clip.body.size(), "disk", "disks") + " along " +
+           (clip.headings.empty() ? "the way it moves" : "its headings");
+}
+
 void refuse_bodies(const Scene& scene, const std::string& what) {
     const auto at = std::ranges::find_if(scene.clips, [](const SceneClip& clip) { return !clip.body.empty(); });
     if (at == scene.clips.end()) return;
@@ -120,6 +125,21 @@ std::vector<PlacedAgent> placed_agents(const Scene& scene) {
         out.push_back({scene.clips[static_cast<std::size_t>(clip)].name, clip, {}, -1});
     }
     return out;
+}
+
+std::vector<PlacedAgent> placed_members(const Scene& scene) {
+    std::vector<PlacedAgent> out = placed_agents(scene);
+    const auto members = [&](const PlacedAgent& who) -> const std::vector<mobb::ClipPtr>& {
+        return scene.clips[static_cast<std::size_t>(who.clip)].members;
+    };
+    // Of a crowd there may be a million.
+    if (std::ranges::all_of(out, [&](const PlacedAgent& who) { return members(who).empty(); })) return out;
+    std::vector<PlacedAgent> all;
+    for (const PlacedAgent& who : out) {
+        const std::vector<PlacedAgent> own = members_of(scene, who);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
 }
 
 std::string disk_words(const PlacedAgent& who) {

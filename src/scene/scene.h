@@ -63,6 +63,8 @@ struct SceneClip {
 /// Makes the members anew of clip, body and headings. Throws std::invalid_argument, as mobb::member_of does.
 void make_members(SceneClip& clip);
 
+/// Of a clip with a body: "6 disks along its headings", or "... along the way it moves".
+std::string body_words(const SceneClip& clip);
 /// Throws InputError if a clip has a body: "`what` is of single disks".
 void refuse_bodies(const Scene& scene, const std::string& what);
 
@@ -162,11 +164,13 @@ SceneQuery query_at(const Scene& scene, const AskedPairs& pairs, std::size_t ind
 
 /// The agents; of a scene without agents every clip, unplaced.
 std::vector<PlacedAgent> placed_agents(const Scene& scene);
+/// The same, those with bodies as each of their members: somebody else begins where the member is at most 0.
+std::vector<PlacedAgent> placed_members(const Scene& scene);
 /// " (disk 2)" of a member, else nothing.
 std::string disk_words(const PlacedAgent& who);
 /// The path of one of them: the clip, or its member.
 const mobb::ClipPtr& path_of(const Scene& scene, const PlacedAgent& who);
-/// The same one as each member of its clip's body; without a body as it is.
+/// One of them as each member of its clip's body; without a body as it is.
 std::vector<PlacedAgent> members_of(const Scene& scene, const PlacedAgent& who);
 
 /// Called during long work with how much is done, of how much in all. It may throw to end the work; the exception

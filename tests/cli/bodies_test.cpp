@@ -85,6 +85,13 @@ TEST(BodiesCommand, QueriesAreAnsweredByTheMembersThatMeetFirst) {
     EXPECT_NE(text.out.find(" of across (disk "), std::string::npos) << text.out;
 }
 
+TEST(BodiesCommand, InfoSaysThem) {
+    const TempFolder folder;
+    const std::string file = folder.write("cars.json", three_cars().dump());
+    EXPECT_EQ(json_of({"info", file})["clips"][0]["body"], car()["body"]);
+    EXPECT_NE(run_program({"info", file}).out.find(" disks along the way it moves\n"), std::string::npos);
+}
+
 TEST(BodiesCommand, ExpectationsAreChecked) {
     const TempFolder folder;
     json scene = three_cars();
@@ -139,7 +146,6 @@ TEST(BodiesCommand, WhatIsOfSingleDisksIsRefused) {
     expect_refused(run_program({"map", file, "--query", "0", "--over", "dx=-5:5,dy=-5:5", "--json"}), 2, why);
     expect_refused(run_program({"sweep", file}), 2, why);
     expect_refused(run_program({"bench", "table1", file}), 2, why);
-    expect_refused(run_program({"graph", "build", file, "--whole", "-o", (folder.path() / "g.json").string()}), 2, why);
 }
 
 TEST(BodiesCommand, EncountersAreTheLeastOverMembers) {
@@ -147,7 +153,7 @@ TEST(BodiesCommand, EncountersAreTheLeastOverMembers) {
     const std::string file = folder.write("cars.json", three_cars().dump());
     // Every member as an agent of its own.
     json members;
-    const json body = car()["body"];
+    const json body = car()["body"], agents = three_cars()["agents"];
     for (std::size_t i = 0; i < body.size(); ++i) {
         json clip = car();
         clip.erase("body");
@@ -157,7 +163,7 @@ TEST(BodiesCommand, EncountersAreTheLeastOverMembers) {
         }
         const std::string name = "car" + std::to_string(i);
         members["clips"][name] = clip;
-        for (json one : three_cars()["agents"]) {
+        for (json one : agents) {
             one["name"] = one["name"].get<std::string>() + "." + std::to_string(i);
             one["clip"] = name;
             members["agents"].push_back(one);

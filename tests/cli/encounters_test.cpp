@@ -2,6 +2,7 @@
 #include "run_program.h"
 
 #include <base/file.h>
+#include <support/folders.h>
 #include <support/json_keys.h>
 #include <support/temp_folder.h>
 
@@ -162,6 +163,16 @@ TEST_F(MergeCommand, OfPlansToo) {
         folder.write("plan.txt", "0:(0,0),(2,0),(5,5),\n1:(1,0),(1,0),(5,5),\n2:(2,0),(0,0),(5,5),\n");
     EXPECT_EQ(run_program(merge(parts({"conflicts", file}, 3), "--json")).out,
               run_program({"conflicts", file, "--json"}).out);
+}
+
+TEST_F(MergeCommand, OfRunsToo) {
+    const std::string file = kSource / "tests/app/goldens/files/run.json";
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"conflicts", file}, {"conflicts", file, "--motion", "linear", "--within", "0.3"}}) {
+        const Result merged = run_program(merge(parts(command, 4), "--json"));
+        EXPECT_EQ(merged.out, run_program(with(command, {"--json"})).out);
+        EXPECT_GT(merged.out.size(), 500u);
+    }
 }
 
 TEST_F(MergeCommand, OfBodiesOnFloorsToo) {

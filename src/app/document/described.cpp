@@ -71,7 +71,7 @@ void describe_sample(Described& out, const DrawnAgent& agent, int index) {
 void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent& who) {
     const mobb::PlacedTree tree = fitted.placed(who);
     const mobb::PlacedClip& clip = tree.placed_clip();
-    out.name = who.name;
+    out.name = who.name + disk_words(who);
     out.facts = {{"clip", fitted.scene().clips[static_cast<std::size_t>(who.clip)].name},
                  {"samples", std::to_string(clip.count())},
                  {"time", formatted("%.3f..%.3f s", clip.time(0), clip.time(clip.count()))},
@@ -79,6 +79,9 @@ void describe_path(Described& out, const FittedScene& fitted, const PlacedAgent&
                  {"tree", std::to_string(tree.tree().nodes().size()) + " nodes, " +
                               std::to_string(tree.tree().depth()) + " levels"}};
     out.exact = {{"time", {clip.time(0), clip.time(clip.count())}}, {"first place", {clip.disk(0).x, clip.disk(0).y}}};
+    if (who.agent < 0) return;
+    const std::string& floor = fitted.scene().agents[static_cast<std::size_t>(who.agent)].floor;
+    if (!floor.empty()) out.facts.emplace_back("floor", floor);
 }
 
 void describe_clip(Described& out, const SceneClip& clip) {
@@ -92,6 +95,7 @@ void describe_clip(Described& out, const SceneClip& clip) {
                  {"path", formatted("%.2f m, %.2f m/s", figures.length, figures.mean_speed)}};
     out.exact = {{"lasts", {clip.clip->duration(), 1 / clip.clip->dt()}},
                  {"path", {figures.length, figures.mean_speed}}};
+    if (!clip.body.empty()) out.facts.emplace_back("body", body_words(clip));
     if (!clip.facts.root.empty()) out.facts.emplace_back("root", clip.facts.root);
     for (const ImportWarning& warning : clip.facts.warnings) out.facts.emplace_back("note", said(warning));
 }

@@ -72,12 +72,22 @@ glm::dvec3 exact_corner(const DrawnAgent& agent, int node, std::size_t corner, g
     return glm::length(out - drawn) < kFlat ? out : drawn;
 }
 
+/// Of several disks the one that the place is on.
+const mobb::PlacedClip& path_at(const DrawnAgent& agent, int sample, double time, const glm::dvec3& place) {
+    const auto beyond_rim = [&](const mobb::PlacedClip& path) {
+        const mobb::Disk disk = mobb::swept(path, sample).at(time);
+        return std::hypot(place.x - disk.x, place.y - disk.y) - disk.r;
+    };
+    return *std::ranges::min_element(agent.paths(), {}, beyond_rim);
+}
+
 /// A disk's centre, its rim, or where the mouse is on it.
 MeasuredEnd on_disk(const DrawList& list, const DrawnAgent& agent, const Pick& hit, Nearest& nearest) {
-    const mobb::PlacedClip& clip = agent.clip();
     const std::string name = agent_name_in(list, hit.id);
     const int here = hit.id.index;
-    const double time = list.moment ? *list.moment : std::clamp(hit.place.z, clip.time(here), clip.time(here + 1));
+    const double time =
+        list.moment ? *list.moment : std::clamp(hit.place.z, agent.clip().time(here), agent.clip().time(here + 1));
+    const mobb::PlacedClip& clip = path_at(agent, here, time, hit.place);
     const mobb::Disk disk = mobb::swept(clip, here).at(time);
     const std::string sample = ", sample " + std::to_string(here);
     // A disk of a moment is as high as a person.

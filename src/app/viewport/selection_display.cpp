@@ -33,6 +33,7 @@ std::optional<DrawnAgent> owner_in_view(const SceneView& seen, const Selection& 
     if (!who || is_hidden(seen, *who)) return std::nullopt;
     DrawnAgent drawn = drawn_agent_of(fitted, *who);
     drawn.placed = {fitted.tree(*who), shown_placement(fitted, seen.view, *who)};
+    drawn.members = drawn_members(fitted.scene(), *who, drawn.clip().placement());
     return drawn;
 }
 

@@ -176,20 +176,21 @@ void add_highlight_lines(DrawList& list, std::span<const Points> lines, Role rol
 }
 
 bool add_highlight(DrawList& list, const DrawnAgent& agent, const AgentPart& part, Role role, float scale) {
-    const mobb::PlacedClip& clip = agent.clip();
     const auto add = [&](const std::vector<Points>& lines) { add_highlight_lines(list, lines, role, scale); };
     if (list.moment) {
         const std::optional<int> then =
             part.kind == AgentPart::Kind::sample ? part.index : sample_at(agent, *list.moment);
         // A node is no thing of one moment.
         if (!then || part.kind == AgentPart::Kind::node) return false;
-        add({disk_outline(list.space, mobb::swept(clip, *then).at(*list.moment), 0)});
+        for (const mobb::PlacedClip& path : agent.paths())
+            add({disk_outline(list.space, mobb::swept(path, *then).at(*list.moment), 0)});
     } else if (part.kind == AgentPart::Kind::node) {
         add(box_edges(list, node_box(agent, part.index, list.space)));
-    } else if (part.kind == AgentPart::Kind::sample) {
-        add({outline_at_half_height(list, clip, part.index)});
     } else {
-        add(outlines_of_ends(list, clip));
+        for (const mobb::PlacedClip& path : agent.paths()) {
+            part.kind == AgentPart::Kind::sample ? add({outline_at_half_height(list, path, part.index)})
+                                                 : add(outlines_of_ends(list, path));
+        }
     }
     return true;
 }

@@ -41,7 +41,8 @@ std::unique_ptr<Picture> picture_of(KeptPaths& kept, const ViewState& view, cons
 void check_disks(const FittedScene& fitted, const ViewState& view) {
     const Scene& scene = fitted.scene();
     const auto samples_of = [&](int clip) {
-        return static_cast<std::size_t>(scene.clips[static_cast<std::size_t>(clip)].clip->count());
+        const SceneClip& of = scene.clips[static_cast<std::size_t>(clip)];
+        return static_cast<std::size_t>(of.clip->count()) * std::max<std::size_t>(of.members.size(), 1);
     };
     const bool draws_all = view.show == Show::space_time && !view.projection && view.disks && !view.query;
     if (!draws_all) return;
