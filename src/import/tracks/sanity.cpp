@@ -321,8 +321,9 @@ class Judge {
     }
     /// Of several steps together each, but of few of all.
     double median_over_steps(std::span<const TrackPoint> points) {
-        const auto rows = static_cast<std::size_t>(kSecondsTogether / step_seconds());
-        const std::size_t together = std::min(std::max(kStepsTogether, rows), points.size() / 4);
+        const double most = static_cast<double>(points.size()) / 4;
+        const double rows = std::max(static_cast<double>(kStepsTogether), kSecondsTogether / step_seconds());
+        const auto together = static_cast<std::size_t>(std::min(rows, most));
         speeds_.clear();
         for (std::size_t i = together; i < points.size(); ++i) {
             const double here = speed(points[i - together], points[i]);
