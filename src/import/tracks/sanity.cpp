@@ -41,6 +41,7 @@ constexpr std::size_t kFewestSpeeds = 10;     // that prove anything
 constexpr std::size_t kStepsTogether = 10;    // of which a speed is taken: noise goes nowhere
 constexpr double kSecondsTogether = 5;        // likewise
 constexpr double kLeastShare = 0.5;           // of the time in which they move, for their being slow to be told
+constexpr double kLeastOfNoise = 0.02;        // likewise, for their being fast
 constexpr double kLeastHeadway = 0.3;         // of who moves: the way that is left of the path
 
 struct Velocity {
@@ -136,6 +137,7 @@ class Judge {
     /// The median of the steps in which somebody moves, and one as fast. Noise goes nowhere: it does not move.
     struct Median {
         double speed = 0;
+        double together = 0;  ///< over several steps
         const Track* track = nullptr;
         int line = 0;
         std::size_t of = 0;  ///< so many
@@ -159,7 +161,10 @@ class Judge {
         }
         if (speeds.empty()) return std::nullopt;
         const auto middle = speeds.begin() + std::ssize(speeds) / 2;
+        std::ranges::nth_element(speeds, middle, {}, &Median::together);
+        const double together = middle->together;
         std::ranges::nth_element(speeds, middle, {}, &Median::speed);
+        middle->together = together;
         middle->of = speeds.size();
         middle->share = static_cast<double>(moving) / static_cast<double>(looked_at);
         return *middle;
@@ -169,17 +174,11 @@ class Judge {
         for (std::size_t i = 1; i < points.size(); ++i) path += metres(points[i - 1], points[i]);
         return path > 0 && metres(points.front(), points.back()) >= kLeastHeadway * path;
     }
-    /// That of the whole way, as single steps of noise are fast; where one step is half of the way or more, that of
-    /// each step.
     void add_speeds(const Track& track, std::size_t first, std::size_t last, std::vector<Median>& speeds) const {
-        const std::span<const TrackPoint> points = track.points;
-        const double together = speed(points[first], points[last]), way = metres(points[first], points[last]);
-        double longest = 0;
-        for (std::size_t i = first + 1; i <= last; ++i) longest = std::max(longest, metres(points[i - 1], points[i]));
+        const double together = speed(track.points[first], track.points[last]);
         for (std::size_t i = first + 1; i <= last; ++i) {
-            const double here = speed(points[i - 1], points[i]);
-            if (here > 0)
-                speeds.push_back({2 * longest < way ? together : std::min(together, here), &track, points[i].line});
+            const double here = speed(track.points[i - 1], track.points[i]);
+            if (here > 0) speeds.push_back({here, together, &track, track.points[i].line});
         }
     }
 
@@ -194,8 +193,9 @@ class Judge {
             fastest = std::max(fastest, of_class);
             if (road_user(label(track))) believed_ = std::max(believed_, of_class);
         }
-        // Who stands makes some headway by chance.
-        const bool is_fast = median_ > fastest, is_slow = median_ < kSlowMedian && median->share >= kLeastShare;
+        // Who stands makes some headway by chance, and noise is fast in single steps, or where it goes anywhere.
+        const bool is_fast = median_ > fastest && median->together > fastest && median->share >= kLeastOfNoise;
+        const bool is_slow = median_ < kSlowMedian && median->share >= kLeastShare;
         const bool is_absurd = median_ > believed_ || median_ < kSlowestMedian;
         const bool is_proven = median->of >= kFewestSpeeds && !file_.alone;
         if ((!is_fast && !is_slow) || (!is_proven && (scale_.is_said || !is_absurd))) return;
@@ -272,8 +272,9 @@ class Judge {
     }
     /// Of several steps together each, but of few of all.
     double median_over_steps(std::span<const TrackPoint> points) {
-        const auto rows = static_cast<std::size_t>(kSecondsTogether / step_seconds());
-        const std::size_t together = std::min(std::max(kStepsTogether, rows), points.size() / 4);
+        const double most = static_cast<double>(points.size()) / 4;
+        const double rows = std::max(static_cast<double>(kStepsTogether), kSecondsTogether / step_seconds());
+        const auto together = static_cast<std::size_t>(std::min(rows, most));
         speeds_.clear();
         for (std::size_t i = together; i < points.size(); ++i) {
             const double here = speed(points[i - together], points[i]);
