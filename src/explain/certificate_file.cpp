@@ -98,6 +98,7 @@ void write_certificate(JsonWriter& out, const FittedScene& fitted, const QueryCe
 }  // namespace
 
 std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates) {
+    refuse_bodies(fitted.scene(), "a proof");
     std::ostringstream text;
     JsonWriter out(text);
     out.begin_object();

@@ -22,7 +22,7 @@ struct QueryCertificate {
     Certificate proof;
 };
 
-/// The file of these.
+/// The file of these. Throws InputError of a scene with bodies, whose disks are proven one by one.
 std::string certificate_text(const FittedScene& fitted, const std::vector<QueryCertificate>& certificates);
 
 /// Of a scene: the queries that a text names must be there, under the same names. `file` stands for it in messages.

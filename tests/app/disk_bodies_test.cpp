@@ -4,6 +4,7 @@
 #include <app/commands/command.h>
 #include <app/document/selection.h>
 #include <app/window/headless_window.h>
+#include <base/error.h>
 #include <render/gl/gl_context.h>
 #include <support/temp_folder.h>
 
@@ -45,6 +46,8 @@ TEST(DiskBodies, AQueryIsOfTheTwoDisksThatAreAsked) {
     const auto who = placed_agent_of(w.workspace().fitted(), side);
     ASSERT_TRUE(who);
     EXPECT_EQ(who->member, query.b.member) << "a box that is selected is one of its tree";
+    EXPECT_THROW(run_command(w.session, "proof.save", (w.folder.path() / "proof.json").string()), InputError)
+        << "a proof is of two disks alone";
     for (const char* command : {"step.first", "step.forward", "step.last", "view.moment"}) w.run(command);
     w.run("query.select", "0");  // who never collide
     EXPECT_FALSE(w.session.queries.findings()->clearance.contact);
