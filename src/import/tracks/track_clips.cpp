@@ -265,9 +265,8 @@ class TrackClipMaker {
         ImportedClip out;
         out.body = std::move(body.disks);
         out.headings = std::move(headings);
-        out.floor = part.floor;
         out.id = part.id;
-        out.floor = track.scope;
+        out.floor = track.scope + part.floor;
         if (!file_.alone)
             out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
         out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(usual_motion(file_)));
