@@ -25,6 +25,12 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
     tracks_[last_].points.push_back(point);
 }
 
+void TrackCollector::add_to_early(double before, double more) {
+    for (Track& track : tracks_) {
+        for (TrackPoint& point : track.points) point.frame += point.frame < before ? more : 0;
+    }
+}
+
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }

@@ -126,6 +126,8 @@ class TrackCollector {
     /// all of them take more than the budget.
     void add(std::string_view id, TrackPoint point, std::string_view label = {}, const PointDetail* detail = nullptr);
     bool empty() const { return tracks_.empty(); }
+    /// Adds so much to all frames before one.
+    void add_to_early(double before, double more);
 
     /// The tracks, each in order of its frames; `once`: without rows that say the same again. Throws InputError, naming
     /// the line, if a track is at two places in one frame; `twice` says so of the first one, up to the line of it.
