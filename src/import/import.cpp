@@ -12,7 +12,6 @@
 #include <import/nodes/gltf_file.h>
 #include <import/skeleton/motion.h>
 #include <import/skeleton/motion_clips.h>
-#include <import/tracks/logs.h>
 #include <import/tracks/mapf_plan.h>
 #include <import/tracks/sumo.h>
 #include <import/tracks/text_rows.h>
@@ -159,29 +158,29 @@ constexpr FileReader kSumo{
     Contents::trajectories,
     looks_like_sumo,
     {"SUMO's floating car data (`.xml`, `.csv`)",
-     "vehicles, persons and containers of each timestep; who rides in a vehicle is left out", "metres"}};
-constexpr FileReader kLog{
-    "log",
-    parse_once<parse_log>,
-    Contents::trajectories,
-    looks_like_log,
-    {"robots' poses: TUM, KITTI (`.txt`), EuRoC, exports of ROS bags (`.csv`); VISSIM, Viswalk (`.fzp`, `.pp`)",
-     "t x y z qx qy qz qw; a matrix of twelve numbers; a header with `p_RS_R_x` or `pose.position.x`; `$VEHICLE:` or "
-     "`$PEDESTRIAN:` with SIMSEC, NO and CoordFront, or CoordCentX and CoordCentY",
-     "metres; without ids one robot; of KITTI 10 poses a second"}};
+     "vehicles, persons and containers of each timestep; who rides in a vehicle is left out",
+     "metres; x and y are the middle of the front; `length` and `width` where they are written"}};
 constexpr FileReader kTable{"csv",
                             parse_once<read_table>,
                             Contents::table,
                             looks_like_table,
                             {"PedPy, inD, highD, NGSIM and others (`.csv`)",
                              "[a table with ids](scenes_and_formats.md#csv)", "metres, or as names of columns say"}};
+/// What tables of some programs are.
+constexpr FormatNote kTableNotes[] = {
+    {"EuRoC, exports of ROS bags (`.csv`)",
+     "`p_RS_R_x [m]`; `pose.position.x`, of several robots by what is ahead of it",
+     "metres; without ids a track a robot"},
+    {"VISSIM, Viswalk (`.fzp`, `.pp`)",
+     "`$VEHICLE:` or `$PEDESTRIAN:` with SIMSEC, NO and CoordFront, or CoordCentX and CoordCentY", "metres"},
+};
 constexpr FileReader kTextTracks{"text-tracks", parse_once<parse_text_tracks>, Contents::trajectories,
                                  looks_like_text_tracks};
 
 /// Those that are told by content. The first that holds a file reads it.
-constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,      &kFbx,      &kGltf,        &kTrajnetpp,
-                                            &kRobotRunners, &kMapfPlan, &kTextPlan, &kTrackerPlan, &kCcbsPlan,
-                                            &kSumo,         &kLog,      &kTable,    &kTextTracks};
+constexpr const FileReader* kByContent[] = {&kJupedsim,     &kBvh,      &kFbx,       &kGltf,        &kTrajnetpp,
+                                            &kRobotRunners, &kMapfPlan, &kTextPlan,  &kTrackerPlan, &kCcbsPlan,
+                                            &kSumo,         &kTable,    &kTextTracks};
 
 struct Format {
     std::string_view extension;
@@ -256,6 +255,7 @@ std::string documented_track_formats() {
     };
     for (const RowFormat& format : row_formats()) add(format.note);
     for (const FileReader* reader : kByContent) add(reader->note);
+    for (const FormatNote& note : kTableNotes) add(note);
     return out;
 }
 

@@ -105,6 +105,16 @@ TEST(Identity, DatesAndTimesOfDayAreTimes) {
     EXPECT_EQ(seconds_of_clock("2021-06-01T12:00:00Z"), 1622548800);
     EXPECT_EQ(seconds_of_clock("2021-06-01 14:00:00.25+02:00"), 1622548800.25);
     EXPECT_EQ(seconds_of_clock("2021/06/01"), 1622505600);
+    EXPECT_EQ(seconds_of_clock("01.06.2021"), 1622505600);
+    const auto night = csv_clips("id,t,x,y\n1,23:59:59,0,0\n2,00:00:00,9,9\n1,00:00:00,1,0\n1,00:00:01,2,0\n");
+    ASSERT_EQ(night.size(), 2u);
+    EXPECT_EQ(night[0].clip->samples().size(), 3u);
+    EXPECT_EQ(night[1].start, 1);
+    EXPECT_TRUE(warns(night[0], "the clock goes over midnight"));
+    EXPECT_EQ(csv_clips("t,x,y,r\n23:59:59,0,0,1\n00:00:00,1,0,1\n")[0].clip->dt(), 1);
+    EXPECT_FALSE(warns(csv_clips("id,t,x,y\n1,01:00:00,0,0\n1,23:00:00,1,0\n1,12:00:00,1,0\n")[0], "midnight"));
+    EXPECT_EQ(seconds_of_clock("01.06.2021 12:00"), 1622548800);
+    EXPECT_EQ(seconds_of_clock("01-06-2021"), std::nullopt) << "day or month first";
     EXPECT_EQ(seconds_of_clock("12:00:30,5"), 43230.5);
     EXPECT_EQ(seconds_of_clock("23:59"), 86340);
     for (const char* bad : {"", "12", "25:00", "12:60", "12:00:", "12:00:00.", "2021-13-01", "2021-02-30",

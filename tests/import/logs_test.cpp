@@ -1,7 +1,9 @@
 // Tracks as robots and VISSIM log them.
+#include "imported.h"
+
 #include <base/text.h>
 #include <import/import.h>
-#include <import/tracks/logs.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -42,16 +44,12 @@ TEST(Logs, PosesOfTumAreOfOneRobot) {
 TEST(Logs, PosesOfKittiHaveNoTimes) {
     const std::string rows = "1 0 0 0 0 1 0 -1 0 0 1 0\n1 0 0 0.5 0 1 0 -1 0 0 1 1\n0 0 1 1 0 1 0 -1 -1 0 0 2\n";
     EXPECT_EQ(logged(rows), kSame);
-    const auto warnings = track_clips(parse_log(rows, "f"), "f", {})[0].facts.warnings;
-    const auto says = [&](const std::string& words) {
-        return std::ranges::any_of(warnings,
-                                   [&](const auto& warning) { return warning.text.find(words) != std::string::npos; });
-    };
-    EXPECT_TRUE(says("10 a second are assumed, as in KITTI"));
-    EXPECT_TRUE(says("the ground is taken to be x and z of the camera, whose y points down"));
+    const ImportedClip robot = track_clips(parse_text_tracks(rows, "f"), "f", {})[0];
+    EXPECT_TRUE(warns(robot, "10 a second are assumed, as in KITTI"));
+    EXPECT_TRUE(warns(robot, "the ground is taken to be x and z of the camera, whose y points down"));
     ImportOptions options;
     options.dt = 0.5;
-    EXPECT_EQ(track_clips(parse_log(rows, "f"), "f", options)[0].clip->dt(), 0.5);
+    EXPECT_EQ(track_clips(parse_text_tracks(rows, "f"), "f", options)[0].clip->dt(), 0.5);
     EXPECT_EQ(logged("1 0 0 0 0 1 0 0 0 0 1 7\n1 0 0 0.5 0 1 0 1 0 0 1 7\n1 0 0 1 0 1 0 2 0 0 1 7\n"), kSame);
 }
 
@@ -72,6 +70,17 @@ TEST(Logs, HeadersOfRosAndEurocNamePlaces) {
     EXPECT_EQ(logged("%time,field.header.seq,field.pose.position.x,field.pose.position.y\n"
                      "1600000000000000000,0,0,0\n1600000000100000000,0,0.5,1\n1600000000200000000,0,1,2\n"),
               kSame);
+    // Of units, clocks, places in cells of their own and several robots alike.
+    EXPECT_EQ(logged("timestamp [us],p_RS_R_x [mm],p_RS_R_y [mm]\n0,0,0\n100000,500,1000\n200000,1000,2000\n"), kSame);
+    EXPECT_EQ(logged("time,pose.position.x,pose.position.y\n12:00:00.0,0,0\n12:00:00.1,0.5,1\n12:00:00.2,1,2\n"),
+              kSame);
+    EXPECT_EQ(logged("t,r1/pose/position/x,r1/pose/position/y,r2/pose/position/x,r2/pose/position/y\n"
+                     "0,0,0,,\n0.1,1,0,7,7\n0.2,,,8,7\n"),
+              "r1 @0 /0.1: (0,0) (1,0); r2 @0.1 /0.1: (7,7) (8,7); ");
+    EXPECT_EQ(logged("Time,poses[0].pose.position.x,poses[0].pose.position.y,poses[1].pose.position.x,"
+                     "poses[1].pose.position.y\n0,0,0,9,9\n0.1,0.5,1,9,9\n0.2,1,2,9,9\n"),
+              kSame)
+        << "a path is one robot's";
     EXPECT_EQ(logged("t;id;/odom/pose/pose/position/x;/odom/pose/pose/position/y\n0;a;0;0\n0.1;b;3;3\n0.1;a;1;0\n"),
               "a @0 /0.1: (0,0) (1,0); b @0.1 /0.1: (3,3); ");
 }
@@ -90,16 +99,16 @@ TEST(Logs, BadLogsAreNamed) {
     const struct {
         std::string text, message;
     } cases[] = {
-        {header, "f: line 1: there is no row with a place after the header; check the columns"},
-        {header + "0,1\n", "f: line 2: has 2 values but there are 3 columns; give every row all of them"},
-        {header + "0,x,1\n", "f: line 2: column 2: 'x' is not a finite number; write it like 0.25"},
-        {header + "0,1,1e10\n", "f: line 2: column 3: '1e10' is beyond 1e+09; check the row"},
-        {header + "0,1,1\n0,2,1\n", "f: line 3: the time 0 of 'robot' stands already in line 2; remove one"},
+        {header, "f: line 1: there is no row after the header; add samples"},
+        {header + "0,1\n", "f: line 2: has 2 values but the header names 3; give every row all of them"},
+        {header + "0,x,1\n", "f: line 2, column 2 (pose.position.x): 'x' is not a finite number; write it like 0.25"},
+        {header + "0,1,1e10\n", "f: line 2, column 3 (pose.position.y): '1e10' is beyond 1e+09; check the units"},
+        {header + "0,1,1\n0,2,1\n", "f: line 3: the time 0 of track 'robot' stands already in line 2; remove one"},
         {"$VISION\n$VEHICLE:SIMSEC;NO;LANE;POS\n1;2;3;4\n",
          "f: line 2: lacks one of SIMSEC, NO and coordinates; let VISSIM write them: CoordFront of vehicles, "
          "CoordCentX and CoordCentY of pedestrians"},
     };
-    for (const auto& bad : cases) EXPECT_EQ(input_error([&] { parse_log(bad.text, "f"); }), bad.message);
+    for (const auto& bad : cases) EXPECT_EQ(input_error([&] { parse_csv(bad.text, "f"); }), bad.message);
 }
 
 }  // namespace

@@ -150,8 +150,8 @@ TEST(MapfTracker, MovesStartWhereTheScenarioSays) {
     folder.write("m-32-random-1.scen", kScenario);
     const std::string same = "0: (0,0) (1,0) (2,0) (2,0); 1: (2,2) (2,1) (2,0) (2,1); ";
     EXPECT_EQ(cells("any.csv",
-                    "map_name,scen_type,type_id,agents,lower_cost,solution_cost,solution_plan\n"
-                    "m-32,random,1,2,5,5,\"rrw\nuud\"\n"),
+                    "map_name,scen_type,type_id,agents,lower_cost,solution_plan\n"
+                    "m-32,random,1,2,5,\"rrw\nuud\"\n"),
               same);
     EXPECT_EQ(cells("m-32_random_1_2.csv", "\"agents\",\"solution_cost\",\"path\"\r\n\"2\",\"5\",\"rr\nuud\n\"\r\n"),
               same);

@@ -2,6 +2,7 @@
 #include <base/text.h>
 #include <import/import.h>
 #include <import/tracks/sumo.h>
+#include <import/tracks/text_rows.h>
 #include <support/input_error.h>
 #include <support/temp_folder.h>
 
@@ -45,11 +46,30 @@ TEST(Sumo, VehiclesAndPersonsAreReadFromXml) {
         "</fcd-export>\n";
     EXPECT_EQ(walks(text),
               "v @0: (0,1) (1,1); p @0: (5,5); person v @0.1: (6,6); 1 row of somebody who rides in a vehicle are left "
-              "out; 1 row without a place is left out; ");
+              "out; 1 row has no place and is left out; fill x and y in if they count; ");
     const TrackFile read = parse_sumo(text, "f");
     EXPECT_EQ(read.tracks[0].label, "car");
     EXPECT_EQ(read.tracks[1].label, "person");
     EXPECT_EQ(read.tracks[0].points[1].line, 11);
+}
+
+TEST(Sumo, SizesAndAnglesMakeBodies) {
+    const TempFolder folder;
+    const std::string car = "<vehicle id=\"v\" x=\"0\" y=\"1\" angle=\"90\" length=\"5\" width=\"1.8\"/>";
+    const auto xml =
+        import_clips(folder.write("fcd.xml", "<fcd-export>\n" + step("0", car) + step("1", car) + "</fcd-export>"), {});
+    const auto table = import_clips(
+        folder.write(
+            "fcd.csv",
+            "\"timestep_time\";\"vehicle_id\";\"vehicle_x\";\"vehicle_y\";\"vehicle_angle\";\"vehicle_length\";"
+            "\"vehicle_width\"\n0;\"v\";0;1;90;5;1.8\n1;v;0;1;90;5;1.8\n"),
+        {});
+    std::vector<mobb::BodyDisk> body = mobb::rectangle_body(5, 1.8);
+    for (mobb::BodyDisk& disk : body) disk.forward -= 2.5;  // SUMO's places are in front
+    for (const auto* const read : {&xml, &table}) {
+        EXPECT_EQ(read->at(0).body, body);
+        EXPECT_EQ(read->at(0).headings, (std::vector<double>{0, 0})) << "east";
+    }
 }
 
 TEST(Sumo, TablesHaveColumnsForEachKind) {
@@ -84,8 +104,8 @@ TEST(Sumo, BadFilesAreNamed) {
          "f: line 3, <vehicle>: has no x; add it"},
         {"<fcd-export>\n" + step("0", "<vehicle id=\"v\" x=\"1e10\" y=\"1\"/>") + "</fcd-export>",
          "f: line 3, <vehicle>: x is '1e10', beyond 1073741824"},
-        {"<fcd-export>\n" + first + first + "</fcd-export>",
-         "f: line 6: the time 0 of 'v' stands already in line 3; remove one"},
+        {"<fcd-export>\n" + first + step("0", "<vehicle id=\"v\" x=\"1\" y=\"1\"/>\n") + "</fcd-export>",
+         "f: line 6: the time 0 of track 'v' stands already in line 3; remove one"},
     };
     for (const auto& bad : xml)
         EXPECT_EQ(input_error([&] { parse_sumo(bad.text, "f"); }).substr(0, bad.message.size()), bad.message);
@@ -93,14 +113,15 @@ TEST(Sumo, BadFilesAreNamed) {
     const struct {
         std::string text, message;
     } tables[] = {
-        {"time;vehicle_id\n", "f: line 1: the header names no column timestep_time; add it"},
         {"timestep_time;vehicle_id;vehicle_x\n",
          "f: line 1: the header names no vehicle_x or _y; let SUMO write x and y"},
-        {header + "0;;;\n", "f: line 2: nobody has a place in any row; check the columns"},
+        {header + "0;;;\n", "f: line 2: there is no row after the header; add samples"},
         {header + "0;v;1\n", "f: line 2: has 3 values but the header names 4; give every row all of them"},
-        {header + "x;v;1;2\n", "f: line 2: timestep_time is 'x', which is no number up to 1e+12; check the row"},
+        {header + "x;v;1;2\n",
+         "f: line 2, column 1 (timestep_time): 'x' is not a finite number; write it like 0.25, or a time like "
+         "2021-06-01T12:00:00"},
     };
-    for (const auto& bad : tables) EXPECT_EQ(input_error([&] { parse_sumo(bad.text, "f"); }), bad.message);
+    for (const auto& bad : tables) EXPECT_EQ(input_error([&] { parse_csv(bad.text, "f"); }), bad.message);
 }
 
 }  // namespace

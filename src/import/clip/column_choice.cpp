@@ -2,6 +2,7 @@
 #include <import/clip/column_choice.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -189,8 +190,8 @@ class FormulaParser {
 ColumnFormula::ColumnFormula(std::size_t column, double factor) : steps_{{Kind::column, 0, column}} {
     if (factor == 1) return;
     // Dividing gives the nearest double where the inverse is whole: milliseconds.
-    const double inverse = 1 / factor;
-    const bool whole = inverse == static_cast<double>(static_cast<long long>(inverse));
+    const double inverse = std::round(1 / factor);
+    const bool whole = factor == 1 / inverse;
     steps_.push_back({Kind::number, whole ? inverse : factor});
     steps_.push_back({whole ? Kind::over : Kind::times});
 }

@@ -36,6 +36,9 @@ struct KnownColumn {
     bool is_weak = false;    ///< the name may mean something else: where another one stands for the same, that is meant
 };
 
+/// 'x' of "pose.position.x" and of "p_RS_R_x [m]", where robots log their places; 0 of other names.
+char pose_axis(std::string_view name);
+
 /// Nothing for a name that stands for none of them.
 std::optional<KnownColumn> known_column(std::string_view name);
 

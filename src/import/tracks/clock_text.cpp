@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace mobbscope {
 
@@ -26,15 +27,18 @@ bool take_sign(std::string_view& text, std::string_view among) {
     return true;
 }
 
-/// "2021-06-01" or with slashes.
+/// "2021-06-01", with slashes too, and "01.06.2021".
 std::optional<double> take_date(std::string_view& text) {
     std::string_view rest = text;
-    const auto year = take_digits(rest, 4);
-    if (!year || !take_sign(rest, "-/")) return std::nullopt;
+    const bool day_first = text.find('.') == 2;
+    const std::string_view sign = day_first ? "." : "-/";
+    auto year = take_digits(rest, day_first ? 2 : 4);
+    if (!year || !take_sign(rest, sign)) return std::nullopt;
     const auto month = take_digits(rest, 2);
-    if (!month || !take_sign(rest, "-/")) return std::nullopt;
-    const auto day = take_digits(rest, 2);
+    if (!month || !take_sign(rest, sign)) return std::nullopt;
+    auto day = take_digits(rest, day_first ? 4 : 2);
     if (!day) return std::nullopt;
+    if (day_first) std::swap(year, day);
     const std::chrono::year_month_day date{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
                                            std::chrono::day(static_cast<unsigned>(*day))};
     if (!date.ok()) return std::nullopt;

@@ -157,7 +157,8 @@ class TrackerReader {
 bool looks_like_mapf_tracker(std::string_view text) {
     int line = 1;
     const Row names = take_table_row(text, line);
-    return std::ranges::any_of(names, is_plan_column) && std::ranges::find(names, "solution_cost") != names.end();
+    const auto has = [&names](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
+    return has("solution_plan") || (has("path") && (has("solution_cost") || has("agents")));
 }
 
 TrackFile parse_mapf_tracker(std::string_view text, const std::string& file) {

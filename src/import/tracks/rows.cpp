@@ -1,6 +1,8 @@
 #include <base/text.h>
+#include <import/clip/road_users.h>
 #include <import/clip/sample_times.h>
 #include <import/clip/sampling.h>
+#include <import/tracks/clock_text.h>
 #include <import/tracks/rows.h>
 #include <mobb/clip.h>
 
@@ -11,6 +13,12 @@
 #include <utility>
 
 namespace mobbscope {
+
+namespace {
+
+constexpr double kMorning = 6 * 3600.0, kEvening = 18 * 3600.0, kDay = 24 * 3600.0;  // seconds
+
+}  // namespace
 
 double RowReader::value(const Cells& cells, Column column, double largest) const {
     const std::optional<ColumnFormula>& made = (*this)[column];
@@ -55,7 +63,7 @@ double RowReader::radius(const Cells& cells) const {
 }
 
 std::string_view RowReader::identifier(const Cells& cells) {
-    if (!has(Column::id)) return {};
+    if (!has(Column::id)) return groups_[at_].id;
     if (!whole_in.empty()) {
         const double id = whole(cells, Column::id);
         if (id != id_) {
@@ -65,9 +73,17 @@ std::string_view RowReader::identifier(const Cells& cells) {
         return id_text_;
     }
     const std::size_t place = *(*this)[Column::id]->only_column();
-    const std::string_view text = cells.text(place);
+    std::string_view text = cells.text(place);
     if (text.empty()) cells.fail(place, "the field is empty; name the track");
+    // "1.0" is what programs write of 1 where others are missing.
+    const std::size_t point = text.find_first_not_of("0123456789");
+    if (point > 0 && text.substr(std::min(point, text.size())) == ".0") text = text.substr(0, point);
     if (!is_utf8(text)) cells.fail(place, "the name is not UTF-8 text; save the file as UTF-8");
+    if (const std::string& kind = groups_[at_].kind; !kind.empty()) {
+        // A person may be called like a vehicle.
+        const bool is_first = kinds_.try_emplace(std::string(text), at_).first->second == at_;
+        return is_first ? text : scoped_id_ = kind + ' ' + std::string(text);
+    }
     if (scopes.empty()) return text;
     scoped_id_.clear();
     for (const std::size_t scope : scopes) {
@@ -79,9 +95,12 @@ std::string_view RowReader::identifier(const Cells& cells) {
 }
 
 std::string_view RowReader::label(const Cells& cells) const {
-    if (!has(Column::label)) return {};
+    const std::string_view kind = groups_[at_].kind;
+    if (!has(Column::label)) return kind;
     const std::size_t place = *(*this)[Column::label]->only_column();
     const std::string_view text = cells.text(place);
+    // A type of which nothing is known says less than the kind.
+    if (!kind.empty() && (text.starts_with("DEFAULT_") || !road_user(text))) return kind;
     if (!is_utf8(text)) cells.fail(place, "the label is not UTF-8 text; save the file as UTF-8");
     return text;
 }
@@ -144,12 +163,18 @@ bool RowReader::is_left_out(const Cells& cells) {
         ++lost_;
         return true;
     }
+    if (groups_[at_].vehicle && !cells.text(*groups_[at_].vehicle).empty()) {
+        ++riding_;
+        return true;
+    }
     // One motion has no gaps.
-    if (!has(Column::id)) return false;
+    if (!has_ids()) return false;
+    constexpr double kNowhere = -1073741824;  // SUMO's, of what is put elsewhere
     for (const Column column : {Column::x, Column::y}) {
         for (const std::size_t place : (*this)[column]->columns()) {
-            if (!cells.is_empty(place)) continue;
-            if (empty_++ == 0) first_empty_ = cells.line();
+            if (!cells.is_empty(place) && (groups_[at_].kind.empty() || cells.value(place) != kNowhere)) continue;
+            // Where each row has several, those who are not there have no cells.
+            if ((groups_.size() == 1 || has(Column::id)) && empty_++ == 0) first_empty_ = cells.line();
             return true;
         }
     }
@@ -166,6 +191,15 @@ void RowReader::check_order(const Cells& cells, double time) const {
 }
 
 bool RowReader::add(const Cells& cells) {
+    bool counts = false;
+    for (std::size_t i = 0; i < groups_.size(); ++i) counts = add(cells, i) || counts;
+    return counts;
+}
+
+bool RowReader::add(const Cells& cells, std::size_t group) {
+    at_ = group;
+    // Of a step in which nobody of a kind is there, the time alone.
+    if (groups_.size() > 1 && has(Column::id) && cells.is_empty((*this)[Column::id]->columns().front())) return false;
     if (is_left_out(cells)) return false;
     const std::string_view id = identifier(cells);
     const double time = when(cells);
@@ -176,9 +210,17 @@ bool RowReader::add(const Cells& cells) {
                            0,
                            radius(cells)};
     in_milliseconds_ = in_milliseconds_ && is_in_milliseconds(time);
+    if (tracks_.empty() && has(Column::t)) {
+        const std::vector<std::size_t> from = (*this)[Column::t]->columns();
+        is_clock_ = from.size() == 1 && time <= kDay && is_time_of_day(cells.text(from.front()));
+    }
+    const bool is_past_midnight = is_clock_ && time < kMorning && last_ >= kEvening;
+    has_morning_ = has_morning_ || time < kMorning;
+    has_midday_ = has_midday_ || (time >= kMorning && time < kEvening);
     // Tracks may lie across each other in any order, the rows of one motion may not.
-    if (!has(Column::id) && has_times() && !tracks_.empty()) check_order(cells, time);
+    if (!has_ids() && has_times() && !tracks_.empty() && !is_past_midnight) check_order(cells, time);
     last_ = time;
+    last_of_all_ = std::max(last_of_all_, time);
     std::optional<PointDetail> more;
     if (has_details()) more = detail(cells);
     tracks_.add(id, point, label(cells), more ? &*more : nullptr);
@@ -188,12 +230,17 @@ bool RowReader::add(const Cells& cells) {
 
 TrackFile RowReader::finish() {
     TrackFile out;
-    out.alone = !has(Column::id);
+    out.alone = !has_ids();
     out.timed = has(Column::t);
     out.has_times = has_times();
     out.has_radius = has(Column::r) || !axes.empty();
     if (out.timed && in_milliseconds_) out.rounding = kMillisecond;
     if (out.timed) out.least_step.reset();
+    // A clock without dates that goes over midnight.
+    if (is_clock_ && has_morning_ && !has_midday_ && last_of_all_ >= kEvening) {
+        tracks_.add_to_early(kMorning, kDay);
+        out.warnings.push_back({"the clock goes over midnight: times before 6:00 are of the day after"});
+    }
     const auto twice = [&](const Track& track, const TrackPoint& row) {
         return time_word() + ' ' + format_double(row.frame) + (out.timed ? rounded_time_hint(row.frame) : "") +
                " of track " + in_quotes(track.id) + " stands already in line ";
@@ -215,10 +262,14 @@ TrackFile RowReader::finish() {
     if (lost_ > 0) {
         out.warnings.push_back({counted(lost_, "row is", "rows are") + " marked as lost or not active and left out"});
     }
-    if (empty_ > 0) {
+    if (riding_ > 0) {
         out.warnings.push_back(
-            {counted(empty_, "row has", "rows have") + " no place and are left out; fill x and y in if they count", "",
-             first_empty_});
+            {counted(riding_, "row of somebody who rides", "rows of those who ride") + " in a vehicle are left out"});
+    }
+    if (empty_ > 0) {
+        out.warnings.push_back({counted(empty_, "row has no place and is", "rows have no place and are") +
+                                    " left out; fill x and y in if they count",
+                                "", first_empty_});
     }
     return out;
 }

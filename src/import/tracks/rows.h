@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace mobbscope {
@@ -43,19 +44,39 @@ class Cells {
     const std::string& file_;
 };
 
+/// Whom SUMO writes of.
+inline constexpr std::string_view kSumoKinds[] = {"vehicle", "person", "container"};
+
+/// Somebody that each row has columns of; nearly always there is one.
+struct RowGroup {
+    std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas{};  ///< in order of kColumns
+    std::string id{};    ///< without a column of ids: whose all rows are; empty: nobody's
+    std::string kind{};  ///< of SUMO: the class of who has none that is known, and ahead of an id that another kind has
+    std::optional<std::size_t> vehicle{};  ///< column of who rides in a vehicle, which has a row of its own
+};
+
 /// Makes points of rows. Say which columns are which, then add row by row.
 class RowReader {
   public:
     /// `file` stands for the file in messages, and must outlive this.
     explicit RowReader(const std::string& file) : tracks_(file) {}
 
-    std::optional<ColumnFormula>& operator[](Column column) { return formulas_[static_cast<std::size_t>(column)]; }
+    /// Of the group in hand: the last one, and of a row the one that is added.
+    std::optional<ColumnFormula>& operator[](Column column) { return group().formulas[std::size_t(column)]; }
     const std::optional<ColumnFormula>& operator[](Column column) const {
-        return formulas_[static_cast<std::size_t>(column)];
+        return groups_[at_].formulas[std::size_t(column)];
     }
+    RowGroup& group() { return groups_[at_]; }
+    void begin_group() {
+        groups_.emplace_back();
+        at_ = groups_.size() - 1;
+    }
+    std::vector<RowGroup>& groups() { return groups_; }
+    bool has_ids() const { return has(Column::id) || !groups_[at_].id.empty(); }
 
-    /// False of a row that does not count. Throws InputError naming the row and the column.
+    /// Each group of a row; false where nothing of it counts. Throws InputError naming the row and the column.
     bool add(const Cells& cells);
+    bool add(const Cells& cells, std::size_t group);
     bool empty() const { return tracks_.empty(); }
     /// "the frame" or "the time".
     std::string time_word() const { return has(Column::frame) ? "the frame" : "the time"; }
@@ -86,17 +107,22 @@ class RowReader {
     void tell_details(TrackFile& file);
     void check_order(const Cells& cells, double time) const;
 
-    std::array<std::optional<ColumnFormula>, std::size(kColumns)> formulas_{};  ///< in order of kColumns
+    std::vector<RowGroup> groups_{1};
+    std::size_t at_ = 0;
+    std::unordered_map<std::string, std::size_t> kinds_{};  ///< by id, whose group it was first
     TrackCollector tracks_;
-    double last_ = 0;              ///< the time or frame of the last row
+    double last_ = 0;         ///< the time or frame of the last row
+    double last_of_all_ = 0;  ///< time or frame
+    bool is_clock_ = false;   ///< times are of a day without a date
+    bool has_morning_ = false, has_midday_ = false;
     bool in_milliseconds_ = true;  ///< all times
     std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
     std::string id_text_{};
     std::string scoped_id_{};
     std::vector<std::string> floors_{};
-    std::size_t scope_size_ = 0;        ///< of that in front of the id
-    std::size_t lost_ = 0, empty_ = 0;  ///< rows that are left out
-    int first_empty_ = 0;               ///< line
+    std::size_t scope_size_ = 0;                     ///< of that in front of the id
+    std::size_t lost_ = 0, riding_ = 0, empty_ = 0;  ///< rows that are left out
+    int first_empty_ = 0;                            ///< line
 };
 
 }  // namespace mobbscope

@@ -5,6 +5,7 @@
 #include <import/tracks/clock_text.h>
 #include <import/tracks/remarks.h>
 #include <import/tracks/rows.h>
+#include <import/tracks/table_columns.h>
 #include <import/tracks/text_rows.h>
 #include <mobb/clip.h>
 
@@ -28,6 +29,28 @@ constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowestHead = 0.8;
 constexpr double kHighestHead = 2.5;
 constexpr double kHeadHeight = 1.7;  // metres: the contract's, for the unit "auto"
+
+/// The first rows of a text of numbers between blanks.
+using FirstRows = std::span<const std::vector<double>>;
+constexpr double kOffUnit = 0.02;  // of lengths that are 1
+
+/// Times that rise, and quaternions.
+bool is_tum(FirstRows rows) {
+    double last = -std::numeric_limits<double>::infinity();
+    return std::ranges::all_of(rows, [&last](const std::vector<double>& row) {
+        const double length = std::hypot(std::hypot(row[4], row[5]), std::hypot(row[6], row[7]));
+        return std::abs(length - 1) <= kOffUnit && std::exchange(last, row[0]) < row[0];
+    });
+}
+
+/// Rotations, whose rows have length 1.
+bool is_kitti(FirstRows rows) {
+    return std::ranges::all_of(rows, [](const std::vector<double>& row) {
+        return std::ranges::all_of(std::array{0u, 4u, 8u}, [&row](std::size_t i) {
+            return std::abs(std::hypot(row[i], row[i + 1], row[i + 2]) - 1) <= kOffUnit;
+        });
+    });
+}
 
 constexpr std::string_view kMetresAndPoints = "metres, 2.5 points a second";
 constexpr RowFormat kRowFormats[] = {
@@ -64,25 +87,29 @@ constexpr RowFormat kRowFormats[] = {
      "SDD (9 numbers and a label in quotes)",
      {"Stanford Drone (`.txt`)", "id xmin ymin xmax ymax frame lost occluded generated \"label\"",
       "the boxes' centres in pixels, y down, one pixel a metre; 30 frames a second"}},
+    {"poses",
+     "t x y _ _ _ _ _",
+     1,
+     false,
+     "",
+     "",
+     {"TUM poses (`.txt`)", "t x y z qx qy qz qw", "metres; one robot"},
+     is_tum},
+    {"poses",
+     "_ _ _ x _ _ _ z _ _ _ y",
+     10,
+     false,
+     "KITTI",
+     "",
+     {"KITTI poses (`.txt`)", "a matrix of twelve numbers: right, down and forward are the fourth, eighth and twelfth",
+      "metres; one robot, 10 poses a second"},
+     is_kitti},
 };
 constexpr const RowFormat& kTrajnet = kRowFormats[1];
 constexpr const RowFormat& kPetrack = kRowFormats[2];
 constexpr const RowFormat& kSdd = kRowFormats[3];
+constexpr const RowFormat& kKitti = kRowFormats[5];
 constexpr std::string_view kIdFirst = "id frame x y";
-
-/// Boxes, of which people want the centres: by their words, with what x and y are made of.
-struct BoxColumns {
-    std::array<std::string_view, 4> words;
-    bool has_middles;             ///< the last two are the other ends, else lengths
-    std::string_view not_with{};  ///< a word that makes it something else
-};
-constexpr BoxColumns kBoxes[] = {
-    {{"x", "y", "width", "height"}, false, "length"},  // highD; with a length they are those of a body around x and y
-    {{"xmin", "ymin", "xmax", "ymax"}, true},
-    {{"x1", "y1", "x2", "y2"}, true},
-    {{"left", "top", "width", "height"}, false},
-    {{"bbleft", "bbtop", "bbwidth", "bbheight"}, false},  // MOT Challenge
-};
 
 /// Between fields; ' ' stands for any number of blanks.
 char separator_of(std::string_view header) {
@@ -96,24 +123,10 @@ char separator_of(std::string_view header) {
     return most->second > 0 ? most->first : ' ';
 }
 
+/// Lines ahead of the header in VISSIM's files.
+bool is_vissim_comment(std::string_view line) { return line.starts_with('*') || line.starts_with("$VISION"); }
+
 bool is_gap(char c) { return c == ' ' || c == '\t'; }
-
-/// A name within a hint.
-std::string shown(const std::string& name) {
-    constexpr std::size_t kLongest = 40;
-    return shortened(cleaned(name), kLongest);
-}
-
-std::string quoted_list(const std::vector<std::string>& names) {
-    constexpr std::size_t kMostNamed = 8;
-    std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
-        const bool last = i > 0 && i + 1 == names.size();
-        out += (i == 0 ? "" : last ? " and " : ", ") + in_quotes(names[i]);
-    }
-    if (names.size() > kMostNamed) out += " and " + std::to_string(names.size() - kMostNamed) + " more";
-    return out;
-}
 
 struct Field {
     std::string_view text;
@@ -130,16 +143,16 @@ class TextRows final : public Cells {
   public:
     /// `scoped`: columns that tell recordings or scenes belong to the ids.
     TextRows(const Input& text, const std::string& file, const ImportOptions& options, bool scoped = false)
-        : Cells(file), lines_(text.pieces(), file), options_(options), rows_(file), scoped_(scoped) {}
+        : Cells(file), lines_(text.pieces(), file), rows_(file), columns_(file, options, rows_, scoped) {}
 
     /// Of a table whose header was read: whether it has such columns, and whether one is known to need them.
-    bool has_scopes() const { return !scopes_.empty(); }
+    bool has_scopes() const { return !columns_.scopes.empty(); }
     bool needs_scopes() const { return needs_scopes_; }
 
     TrackFile table() {
         const bool at_row = read_header();
-        choose_columns();
-        rows_.order_hint = order_hint();
+        columns_.choose_groups();
+        rows_.order_hint = columns_.order_hint();
         if (at_row || lines_.next()) {
             if (!take_units()) add_row();
             while (lines_.next()) add_row();
@@ -147,19 +160,22 @@ class TextRows final : public Cells {
         if (rows_.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
         TrackFile out = finished();
-        out.format = "csv";
-        if (rows_[Column::label]) out.class_size = ClassSize::body;
-        if (const auto x = rows_[Column::x]->columns(); x.size() == 1)
-            out.place_is_front = plain_name(names_[x.front()]).word == "localx";  // of NGSIM
-        if (const std::optional<ColumnFormula>& id = rows_[Column::id]) out.id_column = names_[*id->only_column()];
+        out.format = columns_.format;
+        if (rows_[Column::label] && out.format == "csv") out.class_size = ClassSize::body;
+        if (const auto x = rows_[Column::x]->columns(); x.size() == 1) {
+            const std::string word = plain_name(columns_.names[x.front()]).word;
+            out.place_is_front = word == "localx" || word == "coordfrontx" || out.format == "sumo";
+        }
+        if (const std::optional<ColumnFormula>& id = rows_[Column::id])
+            out.id_column = columns_.names[*id->only_column()];
         if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
-            out.time_column = names_[time.front()];
-        out.header_line = header_line_;
+            out.time_column = columns_.names[time.front()];
+        out.header_line = columns_.header_line;
         out.fps_is_rate = rows_[Column::frame].has_value();
         if (out.fps_is_rate) out.rate = remarks_.rate();
-        if (frames_are_chosen_ && !out.rate) out.rate = 1;
+        if (columns_.frames_are_chosen && !out.rate) out.rate = 1;
         out.unit_assumption = unit_remark();
-        out.unit = unit_;
+        out.unit = columns_.unit;
         return out;
     }
 
@@ -186,6 +202,7 @@ class TextRows final : public Cells {
                  "comment ahead of them, such as '# frame id x y', says what they are"});
         }
         out.format = format_->name;
+        if (format_ == &kKitti) find_ground(out);
         tell_rate(out);
         tell_unit(out);
         if (!rows_.axes.empty()) {
@@ -204,9 +221,12 @@ class TextRows final : public Cells {
         const std::optional<ColumnFormula>& time = rows_[Column::t];
         const bool is_time = time && std::ranges::count(time->columns(), column) > 0;
         if (const std::optional<double> clock = is_time ? seconds_of_clock(field) : std::nullopt) {
-            const std::optional<double> day =
-                date_ && is_time_of_day(field) ? seconds_of_clock(fields_[*date_].text) : std::optional(0.0);
-            if (!day) fail(*date_, in_quotes(fields_[*date_].text) + " is not a date; write it like 2021-06-01");
+            const std::optional<double> day = columns_.date && is_time_of_day(field)
+                                                  ? seconds_of_clock(fields_[*columns_.date].text)
+                                                  : std::optional(0.0);
+            if (!day)
+                fail(*columns_.date,
+                     in_quotes(fields_[*columns_.date].text) + " is not a date; write it like 2021-06-01");
             return *clock + *day;
         }
         fail(column, in_quotes(field) + " is not a finite number; write it like 0.25" +
@@ -235,18 +255,15 @@ class TextRows final : public Cells {
     int line() const override { return lines_.number(); }
     std::string place(std::size_t column) const override {
         if (column == kNoColumn) return at_line(lines_.number());
-        const bool is_named = column < names_.size() && names_[column] != "_";
+        const bool is_named = column < columns_.names.size() && columns_.names[column] != "_";
         return at_line(lines_.number()) + ", column " + std::to_string(column + 1) +
-               (is_named ? " (" + shown(names_[column]) + ")" : "");
+               (is_named ? " (" + shown(columns_.names[column]) + ")" : "");
     }
 
   private:
     static std::string values(std::size_t count) { return counted(count, "value", "values"); }
     using Cells::fail;
     [[noreturn]] void fail(const std::string& message) const { lines_.fail(message); }
-    [[noreturn]] void fail_in_header(const std::string& message) const {
-        throw InputError(file_, at_line(header_line_), message);
-    }
 
     // ---- lines
 
@@ -308,22 +325,31 @@ class TextRows final : public Cells {
     std::string_view whole_line() const { return separator_ == '\t' ? lines_.whole_line() : lines_.line(); }
 
     void split_row() {
-        split(whole_line(), names_.size());
-        if (fields_.size() != names_.size())
-            fail("has " + values(fields_.size()) + " but " + named_by_ + ' ' + std::to_string(names_.size()) +
+        constexpr std::size_t kOfSpot = 2;
+        const std::size_t count = columns_.names.size() - (columns_.spot ? kOfSpot : 0);
+        split(whole_line(), count);
+        if (fields_.size() != count)
+            fail("has " + values(fields_.size()) + " but " + named_by_ + ' ' + std::to_string(count) +
                  "; give every row all of them");
+        if (!columns_.spot) return;
+        std::string_view rest = trimmed(fields_[*columns_.spot].text);
+        for (std::size_t i = 0; i < kOfSpot; ++i) {
+            const std::string_view word = rest.substr(0, std::min(rest.find(' '), rest.size()));
+            fields_.push_back({word, kUnread});
+            rest = trimmed(rest.substr(word.size()));
+        }
     }
 
     bool add_row() {
         split_row();
-        if (std::exchange(counts_time_, false)) scale_time();
-        if (has_scopes() && !scoped_ && !needs_scopes_) {
-            const std::string_view scope = text(scopes_.front());
+        if (std::exchange(columns_.counts_time, false)) scale_time();
+        if (has_scopes() && !columns_.scoped && !needs_scopes_) {
+            const std::string_view scope = text(columns_.scopes.front());
             if (rows_.empty()) first_scope_ = scope;
-            needs_scopes_ = !is_weak_scope_ && scope != first_scope_;
+            needs_scopes_ = !columns_.is_weak_scope && scope != first_scope_;
         }
         if (!rows_.add(*this)) return false;
-        if (height_ && looked_at_ < kRowsOfHeight) look_at_height();
+        if (columns_.height && looked_at_ < kRowsOfHeight) look_at_height();
         return true;
     }
 
@@ -331,7 +357,8 @@ class TextRows final : public Cells {
     void look_at_height() {
         ++looked_at_;
         for (std::size_t i = 0; i < spread_.size(); ++i) {
-            const std::size_t column = i == 2 ? *height_ : *rows_[i == 0 ? Column::x : Column::y]->only_column();
+            const std::size_t column =
+                i == 2 ? *columns_.height : *rows_[i == 0 ? Column::x : Column::y]->only_column();
             std::string text(fields_[column].text);
             if (separator_ != ',') std::ranges::replace(text, ',', '.');
             const std::optional<double> at = parse_double(text);
@@ -348,10 +375,12 @@ class TextRows final : public Cells {
         const auto length = [](const Spread& of) { return of.most - of.least; };
         const auto& [x, y, z] = spread_;
         if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
-        const std::string &flat = names_[*rows_[Column::y]->only_column()], &ground = names_[*height_];
-        warnings_.push_back({"the column " + in_quotes(flat) + " hardly changes and " + in_quotes(ground) +
-                                 " does: if " + flat + " points up, as in Unity, give columns (y=" + ground + ")",
-                             "columns"});
+        const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
+                          &ground = columns_.names[*columns_.height];
+        columns_.warnings.push_back({"the column " + in_quotes(flat) + " hardly changes and " + in_quotes(ground) +
+                                         " does: if " + flat + " points up, as in Unity, give columns (y=" + ground +
+                                         ")",
+                                     "columns"});
     }
 
     /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.
@@ -368,19 +397,21 @@ class TextRows final : public Cells {
             factor /= kThousand;
             unit = finer;
         }
-        if (factor < 1) rows_[Column::t].emplace(column, factor);
-        if (factor < 1 || is_weak_time_) {
-            warnings_.push_back({"the column " + in_quotes(names_[column]) + " is taken for " + std::string(unit) +
-                                     "; give columns (t=" + names_[column] + "/1000) if it counts " +
-                                     (factor < 1 ? "others" : "milliseconds"),
-                                 "columns"});
+        for (RowGroup& group : rows_.groups()) {
+            if (factor < 1) group.formulas[static_cast<std::size_t>(Column::t)].emplace(column, factor);
+        }
+        if (factor < 1 || columns_.is_weak_time) {
+            columns_.warnings.push_back({"the column " + in_quotes(columns_.names[column]) + " is taken for " +
+                                             std::string(unit) + "; give columns (t=" + columns_.names[column] +
+                                             "/1000) if it counts " + (factor < 1 ? "others" : "milliseconds"),
+                                         "columns"});
         }
     }
 
     // ---- the header of a table
 
     /// Whether the line in hand is a row, not a header: names are seldom numbers.
-    bool is_row() const { return 2 * numbers_in(fields_) >= fields_.size() && !options_.columns; }
+    bool is_row() const { return 2 * numbers_in(fields_) >= fields_.size() && !columns_.options.columns; }
 
     /// True if the header was a comment, and the line in hand is the first row.
     bool read_header() {
@@ -391,9 +422,10 @@ class TextRows final : public Cells {
         int comment_line = 0;
         bool found = false;
         while (!found && lines_.next()) {
-            found = !lines_.line().starts_with('#');
-            if (found) break;
-            comment = lines_.line().substr(1);
+            const std::string_view line = lines_.line();
+            found = !line.starts_with('#') && !is_vissim_comment(line);
+            if (found || line[0] != '#') continue;
+            comment = line.substr(1);
             comment_line = lines_.number();
             remarks_.read(comment);
         }
@@ -403,255 +435,18 @@ class TextRows final : public Cells {
                                  "; give a header such as t,x,y,r");
         }
         separator_ = separator_of(whole_line());
-        header_line_ = lines_.number();
+        columns_.header_line = lines_.number();
         split(whole_line(), kMostColumns);
         const bool in_comment = is_row() && comment_line > 0;
         if (in_comment) {
             const std::size_t count = fields_.size();
             split(comment, kMostColumns);
             if (fields_.size() != count) fields_.assign(1, {"0", 0});
-            header_line_ = comment_line;
+            columns_.header_line = comment_line;
         }
         if (is_row()) fail("there is no header; begin the file with a line that names the columns, such as t,x,y,r");
-        for (const Field& field : fields_) names_.emplace_back(field.text);
+        for (const Field& field : fields_) columns_.names.emplace_back(field.text);
         return in_comment;
-    }
-
-    /// The column that is most likely meant where none is known by its name: one whose unit alone is strange, else the
-    /// first of which nothing is known.
-    std::string likely_column(Column needed) const {
-        const auto is_meant = [&](const std::string& name) {
-            const std::optional<KnownColumn> known = known_column(plain_name(name).word);
-            return known && known->column == needed && !known_column(name);
-        };
-        const auto is_strange = [](const std::string& name) { return !name.empty() && !known_column(name); };
-        auto at = std::ranges::find_if(names_, is_meant);
-        if (at == names_.end()) at = std::ranges::find_if(names_, is_strange);
-        return at == names_.end() ? "" : *at;
-    }
-
-    /// "; or say what it is by the option columns, such as x=px".
-    std::string also_by_option(Column needed) const {
-        const std::string likely = likely_column(needed);
-        return "; or say what it is by the option columns, such as " + std::string(name(needed)) + '=' +
-               (likely.empty() ? "east" : shown(likely));
-    }
-
-    std::string order_hint() const {
-        const std::string likely = likely_column(Column::id);
-        return likely.empty() || options_.columns
-                   ? ""
-                   : ", or, if these are several tracks, say which column names them, such as columns id=" +
-                         shown(likely);
-    }
-
-    // ---- which column is which
-
-    void choose_columns() {
-        try {
-            if (options_.columns) {
-                for (const auto& [column, text] : chosen_columns(*options_.columns))
-                    rows_[column].emplace(text, std::span<const std::string>(names_));
-            }
-            take_boxes();
-        } catch (const std::invalid_argument& error) {
-            fail_in_header(error.what());
-        }
-        for (const Column column : {Column::id, Column::label, Column::lost, Column::active, Column::floor}) {
-            if (rows_[column] && !rows_[column]->only_column())
-                fail_in_header("columns: " + std::string(name(column)) + " is one column, and nothing to work out");
-        }
-        for (const Column column : kColumns) take_by_name(column);
-        name_radius_column();
-        settle_bodies();
-        for (const Column needed : {Column::x, Column::y}) {
-            if (rows_[needed]) continue;
-            fail_in_header("the header names no column " + std::string(name(needed)) + "; it needs t,x,y,r or x,y,r" +
-                           (has_word("lat") || has_word("latitude")
-                                ? ". Latitudes and longitudes are degrees: turn them into metres first"
-                                : also_by_option(needed)));
-        }
-        const std::optional<std::size_t> time = rows_[Column::t] ? rows_[Column::t]->only_column() : std::nullopt;
-        const std::optional<KnownColumn> named = time ? known_column(names_[*time]) : std::nullopt;
-        if (options_.columns && named && named->column == Column::frame) {
-            // Frame numbers, if fps says how many are a second.
-            rows_[Column::frame] = std::exchange(rows_[Column::t], std::nullopt);
-            frames_are_chosen_ = true;
-        }
-        if (rows_[Column::t]) rows_[Column::frame].reset();
-        date_ = rows_[Column::t] ? column_with("date") : std::nullopt;
-        for (const char* name : {"z", "posz", "zpos", "positionz", "zposition", "coordz", "zcoord"}) {
-            const bool has_places = rows_[Column::x]->only_column() && rows_[Column::y]->only_column();
-            if (!height_ && has_places && header_line_ > 0 && !options_.columns) height_ = column_with(name);
-        }
-        find_scopes();
-    }
-
-    /// What makes no body, and keeps nobody apart, is a column like any other.
-    void settle_bodies() {
-        const auto column_words = [this](Column column) {
-            const std::vector<std::size_t> from = rows_[column]->columns();
-            return from.empty() ? "the option columns" : in_quotes(names_[from.front()]);
-        };
-        const bool has_sizes = rows_[Column::length] && rows_[Column::width] && !rows_[Column::r];
-        if (has_sizes) {
-            rows_.body_columns = "the columns " + column_words(Column::length) + " and " + column_words(Column::width);
-        }
-        const auto leave = [this](Column column, bool is_left) {
-            if (is_left) rows_[column].reset();
-        };
-        leave(Column::length, !has_sizes);
-        leave(Column::width, !has_sizes);
-        leave(Column::heading, !has_sizes && !rows_[Column::label]);
-        if (rows_[Column::heading]) rows_.heading_column = "the column " + column_words(Column::heading);
-        rows_.guesses_angles = rows_.guesses_angles && rows_[Column::heading];
-        leave(Column::floor, !rows_[Column::id]);
-        leave(Column::z, !rows_[Column::id] || rows_[Column::floor]);
-    }
-
-    void find_scopes() {
-        if (header_line_ == 0 || !rows_[Column::id] || options_.columns) return;
-        constexpr std::array<std::string_view, 23> kScopes{
-            "recordingid", "recording", "sceneid",   "scene",   "caseid", "case",   "sequenceid", "sequence",
-            "sessionid",   "session",   "videoid",   "video",   "runid",  "run",    "trialid",    "trial",
-            "experiment",  "episode",   "episodeid", "dataset", "take",   "takeid", "location"};
-        for (std::size_t i = 0; i < names_.size(); ++i) {
-            const std::string word = plain_name(names_[i]).word;
-            if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
-            // A room is no recording, unless the ids say so.
-            is_weak_scope_ = (scopes_.empty() || is_weak_scope_) && word == "location";
-            scopes_.push_back(i);
-        }
-        if (!scoped_ || scopes_.empty()) return;
-        rows_.scopes = scopes_;
-        std::vector<std::string> said;
-        for (const std::size_t scope : scopes_) said.push_back(names_[scope]);
-        warnings_.push_back({"ids are one's within " + quoted_list(said) +
-                                 " alone and are told with it, as '0/17': who is in different ones was never there "
-                                 "together and does not meet; give columns (id=...) if that is wrong",
-                             "columns"});
-    }
-
-    bool has_word(std::string_view word) const { return column_with(word).has_value(); }
-    std::optional<std::size_t> column_with(std::string_view word) const {
-        const auto at = std::ranges::find(names_, word, [](const std::string& name) { return plain_name(name).word; });
-        return at == names_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - names_.begin()));
-    }
-
-    /// Centres of boxes, where the columns are corners.
-    void take_boxes() {
-        if (rows_[Column::x] || rows_[Column::y]) return;
-        for (const BoxColumns& box : kBoxes) {
-            std::array<std::string, 4> names;
-            bool all = box.not_with.empty() || !has_word(box.not_with);
-            for (std::size_t i = 0; all && i < names.size(); ++i) {
-                const std::optional<std::size_t> column = column_with(box.words[i]);
-                all = column && names_[*column].find('"') == std::string::npos;
-                if (all) names[i] = names_[*column];
-            }
-            // A table with centres of its own needs none of this.
-            if (!all || (box.words[0] != "x" && has_word("x"))) continue;
-            const auto centre = [&](std::size_t i, const std::string& quote = "") {
-                std::string sum = quote;
-                sum.append(names[i]).append(quote).append("+").append(quote).append(names[i + 2]).append(quote);
-                return box.has_middles ? "(" + sum + ")/2" : sum + "/2";
-            };
-            rows_[Column::x].emplace(centre(0, "\""), std::span<const std::string>(names_));
-            rows_[Column::y].emplace(centre(1, "\""), std::span<const std::string>(names_));
-            if (header_line_ == 0) return;
-            warnings_.push_back({"the columns " + quoted_list({names.begin(), names.end()}) +
-                                     " are taken for boxes: their centres are " + centre(0) + ", " + centre(1) +
-                                     "; give columns (x=" + names[0] + ",y=" + names[1] + ") if that is wrong" +
-                                     (box.has_middles ? ""
-                                                      : ", (length=" + names[2] + ",width=" + names[3] +
-                                                            ") for bodies that are as large along their way"),
-                                 "columns"});
-            return;
-        }
-    }
-
-    void take_by_name(Column column) {
-        std::vector<std::size_t> found;
-        std::vector<KnownColumn> known;
-        bool strong = false;
-        if (const std::optional<ColumnFormula>& chosen = rows_[column]) {
-            // A column that was chosen as it is keeps the unit that its name says.
-            const std::optional<std::size_t> only = chosen->only_column();
-            const std::optional<KnownColumn> here = only ? known_column(names_[*only]) : std::nullopt;
-            if (!here || !here->says_unit || (here->column == Column::t) != (column == Column::t)) return;
-            found.push_back(*only);
-            known.push_back(*here);
-        }
-        const bool is_chosen = !found.empty();
-        for (std::size_t i = 0; i < names_.size() && !is_chosen; ++i) {
-            const std::optional<KnownColumn> here = known_column(names_[i]);
-            if (!here || here->column != column || (strong && here->is_weak)) continue;
-            if (!here->is_weak && !strong) {
-                found.clear();
-                known.clear();
-                strong = true;
-            }
-            found.push_back(i);
-            known.push_back(*here);
-        }
-        if (found.empty() || (column == Column::frame && rows_[Column::t])) return;
-        // Of others the first counts.
-        const bool must_be_one = column <= Column::r;
-        if (found.size() > 1 && must_be_one) {
-            const std::string& first = names_[found[0]];
-            const std::string& second = names_[found[1]];
-            if (first == second) fail_at_name(found[1], "the column stands twice; remove one");
-            fail_at_name(found[1], in_quotes(first) + " and " + in_quotes(second) + " may both be " +
-                                       std::string(name(column)) + "; say which by the option columns, such as " +
-                                       std::string(name(column)) + "=" + shown(second));
-        }
-        const KnownColumn& is = known.front();
-        if (column == Column::t) {
-            rows_[column].emplace(found.front(), is.scale);
-            counts_time_ = !is.says_unit && !is_chosen;
-            is_weak_time_ = is.is_weak;
-            return;
-        }
-        if (column == Column::heading) {
-            rows_[column].emplace(found.front(), is.scale);
-            rows_.guesses_angles = !is.says_unit;
-            return;
-        }
-        // All lengths are in the unit of the first column that says one.
-        double factor = 1;
-        if (is.says_unit && column != Column::x && column != Column::y && unit_why_.empty()) {
-            // Places without a unit are in metres all the same.
-            factor = options_.unit ? 1 : is.scale;
-        } else if (is.says_unit) {
-            if (unit_why_.empty()) {
-                unit_ = is.scale;
-                unit_why_ = "the column " + in_quotes(names_[found.front()]);
-            }
-            factor = is.scale / unit_;
-        }
-        rows_[column].emplace(found.front(), factor * is.share);
-    }
-
-    [[noreturn]] void fail_at_name(std::size_t column, const std::string& message) const {
-        throw InputError(file_, at_line(header_line_) + ", column " + std::to_string(column + 1), message);
-    }
-
-    /// The column that the option radius names.
-    void name_radius_column() {
-        const RadiusColumn* const wanted = options_.radius ? std::get_if<RadiusColumn>(&*options_.radius) : nullptr;
-        if (!wanted) return;
-        const auto at = std::ranges::find(names_, wanted->name);
-        // "r" may be made of others.
-        if (at == names_.end() && wanted->name == "r" && rows_[Column::r]) return;
-        if (at == names_.end()) {
-            fail_in_header("the header names no column " + in_quotes(wanted->name) + " of radii" +
-                           did_you_mean(wanted->name, names_) + "; give metres, or a column that it names");
-        }
-        const auto column = static_cast<std::size_t>(at - names_.begin());
-        const auto twice = std::find(at + 1, names_.end(), wanted->name);
-        if (twice != names_.end())
-            fail_at_name(static_cast<std::size_t>(twice - names_.begin()), "the column stands twice; remove one");
-        rows_[Column::r].emplace(column);
     }
 
     /// A row of units below the header, as Pathfinder writes it: "s,,m,m".
@@ -660,53 +455,30 @@ class TextRows final : public Cells {
         const std::optional<std::size_t> x = rows_[Column::x]->only_column();
         const std::optional<double> unit = x ? metres_of_unit(lower(fields_[*x].text)) : std::nullopt;
         if (!unit) return false;
-        unit_ = *unit;
-        unit_why_ = "the row of units";
+        columns_.unit = *unit;
+        columns_.unit_why = "the row of units";
         return true;
     }
 
     std::string unit_remark() {
-        if (unit_why_.empty() && remarks_.unit()) {
-            unit_ = *remarks_.unit();
-            unit_why_ = "a comment";
+        if (columns_.unit_why.empty() && remarks_.unit()) {
+            columns_.unit = *remarks_.unit();
+            columns_.unit_why = "a comment";
         }
-        return unit_ == 1 ? ""
-                          : "a unit of length is " + format_double(unit_) + " m, as " + unit_why_ +
-                                " says; give unit if that is wrong";
+        return columns_.unit == 1 ? ""
+                                  : "a unit of length is " + format_double(columns_.unit) + " m, as " +
+                                        columns_.unit_why + " says; give unit if that is wrong";
     }
 
     /// The tracks, and what is said of the columns.
     TrackFile finished() {
         TrackFile out = rows_.finish();
-        if (height_) tell_height();
-        std::vector<bool> used(names_.size(), header_line_ == 0);
-        for (const Column column : kColumns) {
-            const std::optional<ColumnFormula>& made = rows_[column];
-            for (const std::size_t at : made ? made->columns() : std::vector<std::size_t>()) used[at] = true;
-        }
-        for (const std::size_t scope : rows_.scopes) used[scope] = true;
-        if (date_) used[*date_] = true;
-        std::size_t unnamed = 0;
-        for (std::size_t i = 0; i < names_.size(); ++i) {
-            if (used[i]) continue;
-            if (names_[i].empty()) {
-                ++unnamed;
-            } else if (std::ranges::find(out.others, names_[i]) == out.others.end()) {
-                out.others.push_back(names_[i]);
-            }
-        }
-        std::string over;
-        if (!out.others.empty())
-            over = (out.others.size() == 1 ? "the column " : "the columns ") + quoted_list(out.others);
-        if (unnamed > 0) {
-            over += (over.empty() ? "" : " and ") +
-                    (unnamed == 1 ? std::string("a column") : counted(unnamed, "", "columns")) + " without a name";
-        }
-        if (!over.empty())
-            warnings_.push_back({over + (out.others.size() + unnamed == 1 ? " is" : " are") + " ignored", "columns"});
-        if (decimal_commas_) warnings_.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});
-        for (const std::string& warning : remarks_.warnings()) warnings_.push_back({warning});
-        out.warnings.insert(out.warnings.begin(), warnings_.begin(), warnings_.end());
+        if (columns_.height) tell_height();
+        out.others = columns_.tell_ignored();
+        if (decimal_commas_)
+            columns_.warnings.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});
+        for (const std::string& warning : remarks_.warnings()) columns_.warnings.push_back({warning});
+        out.warnings.insert(out.warnings.begin(), columns_.warnings.begin(), columns_.warnings.end());
         return out;
     }
 
@@ -715,6 +487,7 @@ class TextRows final : public Cells {
     static std::string known_formats() {
         std::string out = "a .txt can be ";
         for (const RowFormat& format : kRowFormats) {
+            if (format.hint.empty()) continue;
             if (&format != kRowFormats) out += &format == &kSdd ? " or " : ", ";
             out += format.hint;
         }
@@ -723,8 +496,8 @@ class TextRows final : public Cells {
 
     void name_columns(std::string_view columns, std::string named_by) {
         split(columns, kMostColumns);
-        names_.clear();
-        for (const Field& field : fields_) names_.emplace_back(field.text);
+        columns_.names.clear();
+        for (const Field& field : fields_) columns_.names.emplace_back(field.text);
         named_by_ = std::move(named_by);
     }
 
@@ -751,20 +524,61 @@ class TextRows final : public Cells {
         const bool has_all = count(Column::id) == 1 && count(Column::x) == 1 && count(Column::y) == 1 &&
                              count(Column::t) + count(Column::frame) > 0;
         if (!has_all || std::ranges::max(counts) > 1) return;
-        names_ = std::move(words);
+        columns_.names = std::move(words);
         named_by_ = "a comment names";
         // Frames go before times, as they tell no rounded ones.
         if (count(Column::frame) == 0) return;
-        for (std::string& name : names_) {
+        for (std::string& name : columns_.names) {
             const std::optional<KnownColumn> known = known_column(name);
             if (known && known->column == Column::t) name = "_";
         }
     }
 
+    /// Those at the beginning that have so many numbers, enough to tell poses from other rows.
+    std::vector<std::vector<double>> first_rows(std::size_t count) const {
+        constexpr std::size_t kLookedAt = 10;
+        std::vector<std::vector<double>> out;
+        std::string_view text = text_;
+        for (std::string_view line = take_row(text); !line.empty() && out.size() < kLookedAt; line = take_row(text)) {
+            std::vector<double> row;
+            for (; !line.empty(); line = trimmed(line)) {
+                const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+                row.push_back(parse_double(line.substr(0, end)).value_or(kUnread));
+                line.remove_prefix(end);
+            }
+            row.resize(count, kUnread);
+            out.push_back(std::move(row));
+        }
+        return out;
+    }
+
+    /// Of KITTI the ground is right and forward of the camera; where it only goes up and down, those axes were meant
+    /// otherwise.
+    static void find_ground(TrackFile& out) {
+        std::vector<TrackPoint>& points = out.tracks.front().points;
+        const auto moves = [&points](const auto& along) {
+            const auto [least, most] = std::ranges::minmax_element(points, {}, along);
+            return along(*least) != along(*most);
+        };
+        const auto down = [&out](const TrackPoint& point) {
+            return out.details[static_cast<std::size_t>(point.detail) - 1].z;
+        };
+        const bool is_upright = !moves([](const TrackPoint& point) { return point.y; }) && moves(down);
+        for (TrackPoint& point : points) {
+            if (is_upright) point.y = down(point);
+            point.detail = 0;
+        }
+        out.details.clear();
+        out.has_times = true;
+        out.warnings.push_back(
+            {std::string("the ground is taken to be ") +
+             (is_upright ? "x and y, as the third axis never changes" : "x and z of the camera, whose y points down")});
+    }
+
     /// Decides by the first row which format this is.
     void choose_format() {
         format_ = &kPetrack;
-        if (names_.empty()) {
+        if (columns_.names.empty()) {
             split(lines_.line(), kMostColumns);
             const std::size_t numbers = numbers_in(fields_);
             const std::size_t count = fields_.size();
@@ -772,7 +586,8 @@ class TextRows final : public Cells {
             format_ = nullptr;
             for (const RowFormat& format : kRowFormats) {
                 const auto columns = static_cast<std::size_t>(std::ranges::count(format.columns, ' ')) + 1;
-                if (columns == count && numbers + (&format == &kSdd && labelled ? 1 : 0) == count) format_ = &format;
+                const bool fits = columns == count && numbers + (&format == &kSdd && labelled ? 1 : 0) == count;
+                if (fits && (!format.holds || format.holds(first_rows(count)))) format_ = &format;
             }
             if (!format_) {
                 const std::string columns = counted(count, "column", "columns");
@@ -785,12 +600,17 @@ class TextRows final : public Cells {
             if (is_flat) format_ = &kPetrack;
             name_columns(is_flat ? kIdFirst : format_->columns, "the rows before it have");
         }
-        rows_.whole_in = format_->name;
-        choose_columns();
+        const bool of_robot = format_->name == "poses";
+        if (of_robot) {
+            rows_.group().id = rows_.group().kind = kRobot;
+        } else {
+            rows_.whole_in = format_->name;
+        }
+        columns_.choose_columns();
         if (format_ == &kPetrack) {
-            heads_ = column_with("z");
+            heads_ = columns_.column_with("z");
             for (const char* axis : {"a", "b"}) {
-                if (const std::optional<std::size_t> column = column_with(axis)) rows_.axes.push_back(*column);
+                if (const std::optional<std::size_t> column = columns_.column_with(axis)) rows_.axes.push_back(*column);
             }
         }
     }
@@ -861,8 +681,8 @@ class TextRows final : public Cells {
                 "unit (metres a pixel)";
         }
         if (format_ != &kPetrack) return;
-        if (remarks_.unit() || !unit_why_.empty()) {
-            out.unit = remarks_.unit().value_or(unit_);
+        if (remarks_.unit() || !columns_.unit_why.empty()) {
+            out.unit = remarks_.unit().value_or(columns_.unit);
             return;
         }
         const std::string otherwise = " give unit if that is wrong";
@@ -891,24 +711,15 @@ class TextRows final : public Cells {
     }
 
     TextLines lines_;
-    const ImportOptions& options_;
     RowReader rows_;
+    TableColumns columns_;
     char separator_ = ',';
-    int header_line_ = 0;               ///< 0: there is no header
     std::vector<Field> fields_;         ///< of the line in hand
     std::deque<std::string> unquoted_;  ///< those of them that are in quotes
-    std::vector<std::string> names_;    ///< of columns
     std::string named_by_ = "the header names";
-    double unit_ = 1;         ///< metres per unit of x, y and r
-    std::string unit_why_{};  ///< who says so: "the column x/cm"; empty: nobody
-    std::vector<ImportWarning> warnings_;
     Remarks remarks_;
     mutable bool decimal_commas_ = false;
-    bool counts_time_ = false, is_weak_time_ = false;  ///< t has no unit; its name may mean something else
-    bool frames_are_chosen_ = false;                   ///< the option columns says that t is a column of frames
-    std::optional<std::size_t> date_;                  ///< the column of dates beside times of day
-    std::vector<std::size_t> scopes_;                  ///< columns within which ids are one's
-    bool scoped_, is_weak_scope_ = false, needs_scopes_ = false;
+    bool needs_scopes_ = false;
     std::string first_scope_;
 
     // Of rows of numbers alone:
@@ -916,9 +727,8 @@ class TextRows final : public Cells {
         double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest(), last = kUnread;
         std::size_t changes = 0;  ///< rows whose place is another than that of the row before
     };
-    std::optional<std::size_t> height_;  ///< the column z of a table with x and y
-    std::array<Spread, 3> spread_;       ///< of x, y and z
-    std::size_t looked_at_ = 0;          ///< rows, for that
+    std::array<Spread, 3> spread_;  ///< of x, y and z
+    std::size_t looked_at_ = 0;     ///< rows, for that
     const RowFormat* format_ = nullptr;
     std::optional<std::size_t> heads_;  ///< the column of their heights
     std::vector<double> heights_;
@@ -959,11 +769,13 @@ FieldCounts counts_of(std::string_view line, char separator) {
 
 bool looks_like_table(std::string_view text) {
     text = without_mark(text);
-    const std::string_view line = take_row(text);
+    std::string_view line = take_row(text);
+    while (is_vissim_comment(line)) line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
-    if (line.empty() || !is_text || std::string_view("{[<%").find(line[0]) != std::string_view::npos) return false;
+    if (line.empty() || !is_text || std::string_view("{[<").find(line[0]) != std::string_view::npos) return false;
     const char separator = separator_of(line);
     const FieldCounts header = counts_of(line, separator);
+    if (line[0] == '%' && header.known == 0) return false;
     if (separator != ' ' && separator != '\t')
         return header.fields >= 2 &&
                (header.numbers == 0 ? header.known > 0 || header.fields > 2 : 2 * header.numbers >= header.fields);

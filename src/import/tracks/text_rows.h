@@ -11,15 +11,16 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobbscope {
 
 /// Whether a text begins like a table: with a line that names columns, or with numbers apart by commas.
 bool looks_like_table(std::string_view text);
 
-/// A table: a header row names columns, and one disk stands in each row after it. Of the options those that say what
-/// columns mean count: columns, and radius where it names one. `file` stands for the file in messages. Throws
-/// InputError naming line and column.
+/// A table: a header row names columns, and one disk stands in each row after it; in tables of SUMO and of several
+/// robots one of each. Of the options those that say what columns mean count: columns, and radius where it names one.
+/// `file` stands for the file in messages. Throws InputError naming line and column.
 TrackFile parse_csv(const Input& text, const std::string& file, const ImportOptions& options = {});
 
 /// A file that is read anew where the options choose other columns than they did before. Safe from any number of
@@ -49,6 +50,8 @@ struct RowFormat {
     std::string_view as_in;    ///< why that rate
     std::string_view hint;     ///< what tells it, for a message
     FormatNote note;
+    /// Of several with as many columns: whether the first rows are of this one; the last such counts.
+    bool (*holds)(std::span<const std::vector<double>> rows) = nullptr;
 };
 
 /// All of them, told apart by how many columns a row has.

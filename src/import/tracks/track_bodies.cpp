@@ -108,11 +108,13 @@ std::string body_remark(const TrackFile& file, double metres) {
         const char* separator = " ";
         for (const auto& [label, count] : others) {
             const RoadUser* const known = sized_class(file, label);
-            taken += separator + (label.empty() ? "none" : in_quotes(label)) + ' ' +
-                     (known && is_rectangle(file, *known) ? size_words(2 * known->radius, known->width)
-                                                          : brief(known ? known->radius : kDefaultTrackRadius) + " m") +
-                     " (" + counted(count, "track", "tracks") +
-                     (known || label.empty() ? ")" : ", a class without a usual radius)");
+            taken +=
+                separator + (label.empty() ? "none" : in_quotes(label)) + ' ' +
+                (known && is_rectangle(file, *known) ? size_words(2 * known->radius, known->width)
+                                                     : brief(known ? known->radius : kDefaultTrackRadius) + " m") +
+                " (" + counted(count, "track", "tracks") +
+                (known || label.empty() || file.class_size == ClassSize::none ? ")"
+                                                                              : ", a class without a usual radius)");
             separator = ", ";
         }
     }

@@ -51,6 +51,12 @@ std::string TrackCollector::step_back() const {
            ": was the clock set back, or does another recording begin? Give other ids from there on if so";
 }
 
+void TrackCollector::add_to_early(double before, double more) {
+    for (Track& track : tracks_) {
+        for (TrackPoint& point : track.points) point.frame += point.frame < before ? more : 0;
+    }
+}
+
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
 }

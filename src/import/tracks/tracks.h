@@ -130,6 +130,8 @@ class TrackCollector {
     bool empty() const { return tracks_.empty(); }
     /// The track that had a point last; there must be one.
     Track& last() { return tracks_[last_]; }
+    /// Adds so much to all frames before one.
+    void add_to_early(double before, double more);
 
     /// The tracks, each in order of its frames; `once`: without rows that say the same again. Throws InputError, naming
     /// the line, if a track is at two places in one frame; `twice` says so of the first one, up to the line of it.
