@@ -65,7 +65,7 @@ class StepCounts {
 
     std::vector<StepCount> counts_;
     std::size_t most_ = 4096;  ///< counts that are not put together
-    double largest_ = 0;  ///< of all times
+    double largest_ = 0;       ///< of all times
 };
 
 /// With so many significant digits.

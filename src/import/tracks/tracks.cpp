@@ -9,7 +9,7 @@ namespace {
 
 /// Twice as much room, as usual, would be empty for the most part where there are many short tracks.
 template <class T>
-void append(std::vector<T>& to, T one) {
+void push_to(std::vector<T>& to, T one) {
     if (to.size() == to.capacity()) to.reserve(to.size() + std::max<std::size_t>(to.size() / 4, 4));
     to.push_back(std::move(one));
 }
@@ -21,14 +21,14 @@ void TrackCollector::add(std::string_view id, const TrackPoint& point, std::stri
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
         if (is_new) {
-            append(tracks_, Track{std::string(id), {}, std::string(label)});
+            push_to(tracks_, Track{std::string(id), {}, std::string(label)});
             used_ += kBytesOfTrack + 4 * id.size();
         }
         last_ = at->second;
     }
     used_ += kBytesOfPoint;
     spent_.cover(used_, "its rows", file_);
-    append(tracks_[last_].points, point);
+    push_to(tracks_[last_].points, point);
 }
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
