@@ -1,6 +1,6 @@
 // Parts are of one whole if their crowds are the same, bodies and floors included; a conflict is of agents, not of
 // disks.
-#include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,14 @@ std::string two(const std::string& body, const std::string& floors) {
 
 Scene scene(const std::string& text) { return parse_scene(text, "s.json", ""); }
 
+std::uint64_t digest_of(const Scene& scene) { return Crowd(scene).digest(); }
+
 TEST(CrowdDigest, IsAnotherForOtherBodiesHeadingsAndFloors) {
     const std::string body = R"("body": [[1,0,0.8],[-1,0,0.8]], )";
-    const std::set<std::uint64_t> all{crowd_digest(scene(two("", ""))), crowd_digest(scene(two(body, ""))),
-                                      crowd_digest(scene(two(R"("body": [[1,0,0.8],[-1,0,0.7]], )", ""))),
-                                      crowd_digest(scene(two(body + R"("headings": [0, 90], )", ""))),
-                                      crowd_digest(scene(two(body, R"(, "floor": 1)")))};
+    const std::set<std::uint64_t> all{digest_of(scene(two("", ""))), digest_of(scene(two(body, ""))),
+                                      digest_of(scene(two(R"("body": [[1,0,0.8],[-1,0,0.7]], )", ""))),
+                                      digest_of(scene(two(body + R"("headings": [0, 90], )", ""))),
+                                      digest_of(scene(two(body, R"(, "floor": 1)")))};
     EXPECT_EQ(all.size(), 5u);
 }
 

@@ -204,8 +204,10 @@ TEST(TrackClips, TrimIsOfTheFilesTimeAndStartsStay) {
     EXPECT_EQ(read[0].clip->samples()[0].x, 4);
     EXPECT_EQ(read[1].clip->count(), 4);
     EXPECT_EQ(read[1].clip->samples()[0].x, 1) << "within the gap";
-    EXPECT_EQ(trimmed(4.2, 99)[0].start, 4.5) << "samples stay where they are";
-    EXPECT_EQ(trimmed(4.2, 99)[0].clip->count(), 2);
+    EXPECT_EQ(trimmed(4.2, 99)[0].start, 4) << "samples stay where they are, and what is between them is there";
+    EXPECT_EQ(trimmed(4.2, 99)[0].clip->count(), 3);
+    EXPECT_EQ(trimmed(0, 4.2)[0].clip->count(), 10);
+    EXPECT_EQ(trimmed(4.2, 4.3)[0].clip->count(), 2);
     EXPECT_EQ(trimmed(19.999, 20.1)[0].start, 20);
     EXPECT_EQ(trimmed(19.999, 20.1).size(), 1u);
     EXPECT_EQ(

@@ -143,7 +143,7 @@ class TextRows final : public Cells {
   public:
     /// `scoped`: columns that tell recordings or scenes belong to the ids.
     TextRows(const Input& text, const std::string& file, const ImportOptions& options, bool scoped = false)
-        : Cells(file), lines_(text.pieces(), file), rows_(file), columns_(file, options, rows_, scoped) {}
+        : Cells(file), input_(text), lines_(text.pieces(), file), rows_(file), columns_(file, options, rows_, scoped) {}
 
     /// Of a table whose header was read: whether it has such columns, and whether one is known to need them.
     bool has_scopes() const { return !columns_.scopes.empty(); }
@@ -536,9 +536,10 @@ class TextRows final : public Cells {
 
     /// Those at the beginning that have so many numbers, enough to tell poses from other rows.
     std::vector<std::vector<double>> first_rows(std::size_t count) const {
-        constexpr std::size_t kLookedAt = 10;
+        constexpr std::size_t kLookedAt = 10, kBytes = 1 << 16;
         std::vector<std::vector<double>> out;
-        std::string_view text = text_;
+        const std::string begin = input_.beginning(kBytes);
+        std::string_view text = begin;
         for (std::string_view line = take_row(text); !line.empty() && out.size() < kLookedAt; line = take_row(text)) {
             std::vector<double> row;
             for (; !line.empty(); line = trimmed(line)) {
@@ -710,6 +711,7 @@ class TextRows final : public Cells {
             otherwise;
     }
 
+    const Input& input_;
     TextLines lines_;
     RowReader rows_;
     TableColumns columns_;

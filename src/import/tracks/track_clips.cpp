@@ -218,10 +218,19 @@ class TrackClipMaker {
         double last = grid.steps;
         if (options_.trim) {
             const auto [from, to] = *options_.trim;
-            first = file_.alone ? 0 : std::max(first, std::ceil((from - start) / dt - kFrameTolerance));
-            last = file_.alone ? sample_count(from, std::min(to, facts.duration), dt) - 1
-                               : std::min(last, std::floor((to - start) / dt + kFrameTolerance));
-            if (file_.alone && from > facts.duration) return std::nullopt;
+            if (file_.alone) {
+                if (from > facts.duration) return std::nullopt;
+                last = sample_count(from, std::min(to, facts.duration), dt) - 1;
+            } else {
+                // All that is there in the meantime; one that runs does so to the sample after it.
+                const bool runs = grid.steps > 0 && options_.motion.value_or(kMotionOfTracks) == mobb::Motion::linear;
+                constexpr double kRounding = 1e-6;
+                const double begin = (from - start) / dt + kRounding, end = (to - start) / dt - kRounding;
+                if (begin > grid.steps + (runs ? 2 * kRounding : 1) || end < -2 * kRounding) return std::nullopt;
+                first = std::clamp(std::floor(begin), 0.0, runs ? grid.steps - 1 : grid.steps);
+                last = runs ? std::clamp(std::ceil(end), first + 1, grid.steps)
+                            : std::clamp(std::floor(end + 2 * kRounding), first, grid.steps);
+            }
         }
         if (first > last) return std::nullopt;
         const std::size_t most = grid.has_gaps ? most_filled_ : resampled ? most_made_ : most_stored_;

@@ -9,7 +9,7 @@ namespace {
 
 /// Twice as much room, as usual, would be empty for the most part where there are many short tracks.
 template <class T>
-void append_tightly(std::vector<T>& to, T one) {
+void push_to(std::vector<T>& to, T one) {
     if (to.size() == to.capacity()) to.reserve(to.size() + std::max<std::size_t>(to.size() / 4, 4));
     to.push_back(std::move(one));
 }
@@ -21,7 +21,7 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
     if (tracks_.empty() || tracks_[last_].id != id) {
         const auto [at, is_new] = index_.try_emplace(std::string(id), tracks_.size());
         if (is_new) {
-            append_tightly(tracks_, Track{std::string(id), {}, std::string(label)});
+            push_to(tracks_, Track{std::string(id), {}, std::string(label)});
             used_ += kBytesOfTrack + 4 * id.size();
         }
         last_ = at->second;
@@ -39,7 +39,7 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
         if (steps_back_++ == 0) back_line_ = point.line;
         back_by_ = std::max(back_by_, points.back().frame - point.frame);
     }
-    append_tightly(points, point);
+    push_to(points, point);
 }
 
 std::string TrackCollector::step_back() const {
