@@ -59,7 +59,7 @@ struct ConflictListing {
     std::optional<std::size_t> left_out;  ///< conflicts that rest on invented motion, where they are not listed
 
     std::size_t size = 0;
-    std::function<ListedConflict(std::size_t)> row;  ///< worst first
+    std::function<ListedConflict(std::size_t)> row;  ///< worst first; each is asked for once, in order
 
     /// Whether two are parts of one whole.
     bool is_of_the_same(const ConflictListing& other) const;
@@ -70,8 +70,9 @@ enum class ListingFormat { text, json, csv };
 /// To standard output.
 void write_listing(const ConflictListing& listing, ListingFormat format);
 
-/// The whole of files that write_listing has written of each part, in any order. Throws InputError, naming the file,
-/// for one that is cut off, belongs to another whole, or is there twice, and if one is missing.
+/// The whole of files that write_listing has written of each part, in any order, of which a row each is in memory. The
+/// files must stay as they are. Throws InputError, naming the file, for one that is cut off, belongs to another whole,
+/// or is there twice, and if one is missing.
 ConflictListing merged_listing(const std::vector<std::filesystem::path>& files);
 
 }  // namespace mobbscope::cli
