@@ -1,10 +1,11 @@
-/// Who collides in a crowd of short tracks: the library's sweep, and beside it the plain grid that one would write for
-/// tracks of one clock.
+/// Who collides in a crowd of short tracks: the library's sweep, and beside it the plain grid and the k-d trees that
+/// one would write for tracks of one clock.
 #include <benchmark/benchmark.h>
 #include <mobb/random_motion.h>
 #include <mobb_tracks/people_conflicts.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,9 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
+#ifdef MOBBSCOPE_NANOFLANN
+#include <nanoflann.hpp>
+#endif
 
 namespace {
 
@@ -57,39 +61,26 @@ void sweep(benchmark::State& state) {
     state.counters["conflicts"] = static_cast<double>(found);
 }
 
-/// Each step's ways are put into cells that are as wide as two ways and two radii, and compared with those of the cells
-/// around. It tells who collides, and neither when nor how deep.
-void plain_grid(benchmark::State& state) {
+/// What one would write for tracks of one clock: `pairs_near(ways, visit)` tells, for a step, all pairs of ways that
+/// may be near each other, by their index, and perhaps others. It tells who collides, and neither when nor how deep.
+template <class PairsNear>
+void step_by_step(benchmark::State& state, const PairsNear& pairs_near) {
     const Walkers walkers(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
                           static_cast<double>(state.range(2)));
-    constexpr double kCell = 2 * (kSpeed * kDt + kRadius);
-    std::vector<int> by_begin(walkers.begins.size());
-    std::iota(by_begin.begin(), by_begin.end(), 0);
     std::size_t found = 0;
     for (auto _ : state) {
         std::vector<std::pair<int, int>> pairs;
-        std::unordered_map<std::int64_t, std::vector<int>> cells;
+        std::vector<SweptDisk> ways;
         std::size_t first = 0;
         for (int step = 0; step < walkers.begins.back() + kSamples; ++step) {
-            while (first < by_begin.size() && walkers.begins[first] + kSamples - 1 <= step) ++first;
-            cells.clear();
-            for (std::size_t i = first; i < by_begin.size() && walkers.begins[i] <= step; ++i) {
-                const SweptDisk way = swept(walkers.placed[i], step - walkers.begins[i]);
-                const auto x = static_cast<std::int64_t>(std::floor(way.from.x / kCell));
-                const auto y = static_cast<std::int64_t>(std::floor(way.from.y / kCell));
-                for (std::int64_t dx = -1; dx <= 1; ++dx) {
-                    for (std::int64_t dy = -1; dy <= 1; ++dy) {
-                        const auto at = cells.find((x + dx) * 1'000'003 + y + dy);
-                        if (at == cells.end()) continue;
-                        for (const int other : at->second) {
-                            const auto j = static_cast<std::size_t>(other);
-                            if (Approach(way, swept(walkers.placed[j], step - walkers.begins[j])).collides())
-                                pairs.emplace_back(other, static_cast<int>(i));
-                        }
-                    }
-                }
-                cells[x * 1'000'003 + y].push_back(static_cast<int>(i));
-            }
+            while (first < walkers.begins.size() && walkers.begins[first] + kSamples - 1 <= step) ++first;
+            ways.clear();
+            for (std::size_t i = first; i < walkers.begins.size() && walkers.begins[i] <= step; ++i)
+                ways.push_back(swept(walkers.placed[i], step - walkers.begins[i]));
+            pairs_near(ways, [&](std::size_t a, std::size_t b) {
+                if (Approach(ways[a], ways[b]).collides())
+                    pairs.emplace_back(static_cast<int>(first + a), static_cast<int>(first + b));
+            });
         }
         std::ranges::sort(pairs);
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -98,11 +89,68 @@ void plain_grid(benchmark::State& state) {
     state.counters["conflicts"] = static_cast<double>(found);
 }
 
+/// Cells that are as wide as two ways and two radii: who is in one is compared with those of the cells around.
+void plain_grid(benchmark::State& state) {
+    constexpr double kCell = 2 * (kSpeed * kDt + kRadius);
+    std::unordered_map<std::int64_t, std::vector<std::size_t>> cells;
+    step_by_step(state, [&](const std::vector<SweptDisk>& ways, const auto& visit) {
+        cells.clear();
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            const auto x = static_cast<std::int64_t>(std::floor((ways[i].from.x + ways[i].to.x) / 2 / kCell));
+            const auto y = static_cast<std::int64_t>(std::floor((ways[i].from.y + ways[i].to.y) / 2 / kCell));
+            for (std::int64_t dx = -1; dx <= 1; ++dx) {
+                for (std::int64_t dy = -1; dy <= 1; ++dy) {
+                    const auto at = cells.find((x + dx) * 1'000'003 + y + dy);
+                    if (at == cells.end()) continue;
+                    for (const std::size_t other : at->second) visit(other, i);
+                }
+            }
+            cells[x * 1'000'003 + y].push_back(i);
+        }
+    });
+}
+
+#ifdef MOBBSCOPE_NANOFLANN
+/// The middles of ways, as nanoflann wants them.
+struct Middles {
+    std::vector<std::array<double, 2>> at;
+    std::size_t kdtree_get_point_count() const { return at.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return at[i][axis]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+/// A k-d tree of each step, which is what SciPy's cKDTree would be asked for: nanoflann's.
+void kd_tree(benchmark::State& state) {
+    constexpr double kNear = kSpeed * kDt + 2 * kRadius;
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Middles>, Middles, 2>;
+    Middles middles;
+    std::vector<std::pair<std::uint32_t, double>> near;
+    step_by_step(state, [&](const std::vector<SweptDisk>& ways, const auto& visit) {
+        middles.at.clear();
+        for (const SweptDisk& way : ways)
+            middles.at.push_back({(way.from.x + way.to.x) / 2, (way.from.y + way.to.y) / 2});
+        const Tree tree(2, middles);
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            tree.radiusSearch(middles.at[i].data(), kNear * kNear, near, {32, 0, false});
+            for (const auto& [other, squared] : near) {
+                if (other < i) visit(other, i);
+            }
+        }
+    });
+}
+#endif
+
 void crowds(benchmark::internal::Benchmark* of) {
     of->ArgNames({"tracks", "at_once", "per_m2"})->Unit(benchmark::kMillisecond);
     of->Args({10'000, 10'000, 2})->Args({100'000, 1'000, 2})->Args({100'000, 200, 1});
 }
 BENCHMARK(sweep)->Apply(crowds);
 BENCHMARK(plain_grid)->Apply(crowds);
+#ifdef MOBBSCOPE_NANOFLANN
+BENCHMARK(kd_tree)->Apply(crowds);
+#endif
 
 }  // namespace

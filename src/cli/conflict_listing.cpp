@@ -1,5 +1,5 @@
 #include <base/error.h>
-#include <base/file.h>
+#include <base/input.h>
 #include <base/json.h>
 #include <base/json_writer.h>
 #include <base/text.h>
@@ -12,10 +12,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
+#include <queue>
 #include <tuple>
 #include <utility>
 
@@ -208,7 +210,7 @@ void write_text(const ConflictListing& listing) {
 // Reading parts.
 
 constexpr double kFar = std::numeric_limits<double>::max();
-constexpr int kMostAgents = 10'000'000;  // no file has more samples
+constexpr int kMostAgents = 500'000'000;  // no file has more bytes for them
 
 std::optional<double> optional_number(const JsonPlace& in, const char* key) {
     const auto at = in.find(key);
@@ -268,39 +270,121 @@ ListedConflict read_row(const JsonPlace& in, std::size_t agents) {
     return out;
 }
 
-/// Appends the rows to `rows`.
-ConflictListing read_part(const std::filesystem::path& file, std::vector<ListedConflict>& rows) {
-    const std::string name = file.string();
-    const std::string text = read_file(file);
-    const JsonText json = [&] {
-        try {
-            return parse_json(text, name);
-        } catch (const InputError&) {
-            // One that was killed while it was written ends anywhere.
-            throw InputError(name, "", "is not whole; ask for this part again: mobbscope conflicts ... --part K/N");
+/// What stands first in the order of conflicts.
+using Rank = std::tuple<double, double, double, int, int>;
+
+/// A part, read row by row: all of them may be too much for the memory.
+class PartReader {
+  public:
+    explicit PartReader(const std::filesystem::path& file)
+        : file_(file.string()), lines_(Input::open(file).pieces(), file_) {
+        // As it is written, but for the rows, of which each has a line.
+        std::string rest;
+        while (!has_lines_ && lines_.next()) {
+            rest.append(lines_.line()) += '\n';
+            has_lines_ = lines_.line() == "\"conflicts\": [";
         }
-    }();
-    const JsonPlace in(json, name);
-    ConflictListing out;
-    const auto part = in.find("part");
-    if (!part) in.fail("is no part; give what mobbscope conflicts --part K/N has written");
-    const auto [number, of] = read_numbers(in, "part", 1, kMostParts);
-    out.part = {number, of};
-    out.digest = read_digest(in.require("digest"));
-    out.file = in.require("file").string();
-    out.t0 = optional_number(in, "t0");
-    out.agents = static_cast<std::size_t>(in.require("agents").integer(0, kMostAgents));
-    out.radius = optional_number(in, "radius");
-    out.pairs = static_cast<std::size_t>(in.require("pairs").count());
-    out.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
-    in.require("warnings").each([&](const JsonPlace& one) { out.warnings.push_back(one.string()); });
-    if (const auto unforced = in.find("unforced")) out.unforced = unforced->count();
-    if (const auto left_out = in.find("left_out")) out.left_out = static_cast<std::size_t>(left_out->count());
-    out.within = optional_number(in, "within");
-    out.least_seconds = optional_number(in, "min_duration");
-    in.require("conflicts").each([&](const JsonPlace& row) { rows.push_back(read_row(row, out.agents)); });
-    return out;
-}
+        if (has_lines_) rest += "]}";
+        read_head(parsed(rest));
+    }
+
+    const ConflictListing& head() const { return head_; }
+    const ListedConflict& row() const { return row_; }
+    const Rank& rank() const { return rank_; }
+
+    /// Moves to the next row; false at the end.
+    bool next() {
+        if (is_done_) return false;
+        if (!has_lines_ || !lines_.next()) fail();
+        std::string_view line = lines_.line();
+        if (line == "]") {
+            is_done_ = true;
+            if (!lines_.next() || lines_.line() != "}" || lines_.next()) fail();
+            return false;
+        }
+        if (line.ends_with(',')) line.remove_suffix(1);
+        const JsonText json = parsed(line);
+        try {
+            row_ = read_row(JsonPlace(json, file_), head_.agents);
+        } catch (const InputError&) {
+            lines_.fail("is not as it was written; ask for this part again");
+        }
+        const Rank before = std::exchange(rank_, {row_.least_clearance, -mobb::seconds_of(row_.intervals),
+                                                  mobb::interval_at(row_.intervals, row_.time).t0, row_.a, row_.b});
+        if (++rows_ > 1 && rank_ < before) lines_.fail("is not in its place; ask for this part again");
+        return true;
+    }
+
+  private:
+    /// One that was killed while it was written ends anywhere.
+    [[noreturn]] void fail() const {
+        throw InputError(file_, "", "is not whole; ask for this part again: mobbscope conflicts ... --part K/N");
+    }
+    JsonText parsed(std::string_view text) const {
+        try {
+            return parse_json(text, file_);
+        } catch (const InputError&) {
+            fail();
+        }
+    }
+    void read_head(const JsonText& json) {
+        const JsonPlace in(json, file_);
+        const auto part = in.find("part");
+        if (!part) in.fail("is no part; give what mobbscope conflicts --part K/N has written");
+        const auto [number, of] = read_numbers(in, "part", 1, kMostParts);
+        head_.part = {number, of};
+        head_.digest = read_digest(in.require("digest"));
+        head_.file = in.require("file").string();
+        head_.t0 = optional_number(in, "t0");
+        head_.agents = static_cast<std::size_t>(in.require("agents").integer(0, kMostAgents));
+        head_.radius = optional_number(in, "radius");
+        head_.pairs = static_cast<std::size_t>(in.require("pairs").count());
+        head_.pairs_tested = static_cast<std::size_t>(in.require("pairs_tested").count());
+        in.require("warnings").each([&](const JsonPlace& one) { head_.warnings.push_back(one.string()); });
+        if (const auto unforced = in.find("unforced")) head_.unforced = unforced->count();
+        if (const auto left_out = in.find("left_out")) head_.left_out = static_cast<std::size_t>(left_out->count());
+        head_.within = optional_number(in, "within");
+        head_.least_seconds = optional_number(in, "min_duration");
+        is_done_ = in.require("conflicts").size() == 0 && !has_lines_;
+    }
+
+    std::string file_;
+    TextLines lines_;
+    ConflictListing head_;
+    ListedConflict row_;
+    Rank rank_;
+    std::size_t rows_ = 0;
+    bool has_lines_ = false;  ///< of its own each row has
+    bool is_done_ = false;
+};
+
+/// The rows of all parts, worst first.
+class MergedRows {
+  public:
+    explicit MergedRows(const std::vector<std::filesystem::path>& files) {
+        for (const std::filesystem::path& file : files) parts_.push_back(std::make_unique<PartReader>(file));
+    }
+
+    const PartReader& part(std::size_t i) const { return *parts_[i]; }
+
+    /// Null at the end; else it lasts until the next is asked for.
+    const ListedConflict* next() {
+        for (std::size_t i = last_.value_or(0); i < (last_ ? *last_ + 1 : parts_.size()); ++i) {
+            if (parts_[i]->next()) ranks_.emplace(parts_[i]->rank(), i);
+        }
+        last_.reset();
+        if (ranks_.empty()) return nullptr;
+        last_ = ranks_.top().second;
+        ranks_.pop();
+        return &parts_[*last_]->row();
+    }
+
+  private:
+    std::vector<std::unique_ptr<PartReader>> parts_;
+    using Ranked = std::pair<Rank, std::size_t>;
+    std::priority_queue<Ranked, std::vector<Ranked>, std::greater<>> ranks_;
+    std::optional<std::size_t> last_;  ///< the part whose row is in hand
+};
 
 }  // namespace
 
@@ -324,24 +408,24 @@ void write_listing(const ConflictListing& listing, ListingFormat format) {
 }
 
 ConflictListing merged_listing(const std::vector<std::filesystem::path>& files) {
-    const auto rows = std::make_shared<std::vector<ListedConflict>>();
+    MergedRows rows(files);
     std::optional<ConflictListing> whole;
     std::map<int, std::string> seen;  // by part
-    for (const std::filesystem::path& file : files) {
-        ConflictListing part = read_part(file, *rows);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string file = files[i].string();
+        const ConflictListing& part = rows.part(i).head();
         const std::string what = std::to_string(part.part->part) + "/" + std::to_string(part.part->parts);
         if (whole && !whole->is_of_the_same(part))
-            throw InputError(file.string(), "",
+            throw InputError(file, "",
                              "is a part of another whole than " + files.front().string() +
                                  "; give the parts of one file, with the same options and as many parts");
-        if (!seen.emplace(part.part->part, file.string()).second)
-            throw InputError(file.string(), "",
-                             "is part " + what + ", as " + seen[part.part->part] + " is; give each once");
+        if (!seen.emplace(part.part->part, file).second)
+            throw InputError(file, "", "is part " + what + ", as " + seen[part.part->part] + " is; give each once");
         if (whole) {
             whole->pairs_tested += part.pairs_tested;
             if (whole->left_out) *whole->left_out += part.left_out.value_or(0);
         } else {
-            whole = std::move(part);
+            whole = part;
         }
     }
     int missing = 1;
@@ -351,14 +435,13 @@ ConflictListing merged_listing(const std::vector<std::filesystem::path>& files) 
         throw InputError(files.front().string(), "",
                          "part " + what + " is missing; ask for it with the options of the others and --part " + what);
     }
-    std::ranges::sort(*rows, {}, [](const ListedConflict& of) {
-        return std::tuple(of.least_clearance, -mobb::seconds_of(of.intervals),
-                          mobb::interval_at(of.intervals, of.time).t0, of.a, of.b);
-    });
     whole->part.reset();
-    whole->size = rows->size();
-    for (const ListedConflict& of : *rows) whole->seconds += mobb::seconds_of(of.intervals);
-    whole->row = [rows](std::size_t i, bool) { return (*rows)[i]; };
+    // Every row is looked at before one is written.
+    while (const ListedConflict* row = rows.next()) {
+        ++whole->size;
+        whole->seconds += mobb::seconds_of(row->intervals);
+    }
+    whole->row = [again = std::make_shared<MergedRows>(files)](std::size_t, bool) { return *again->next(); };
     return std::move(*whole);
 }
 

@@ -59,7 +59,8 @@ struct ConflictListing {
     std::optional<std::size_t> left_out;  ///< conflicts that rest on invented motion, where they are not listed
 
     std::size_t size = 0;
-    /// Worst first; `figures`: with times to collision and of post-encroachment, where these are encounters.
+    /// Worst first; each is asked for once, in order. `figures`: with times to collision and of post-encroachment,
+    /// where these are encounters.
     std::function<ListedConflict(std::size_t, bool figures)> row;
 
     /// Whether two are parts of one whole.
@@ -71,8 +72,9 @@ enum class ListingFormat { text, json, csv };
 /// To standard output.
 void write_listing(const ConflictListing& listing, ListingFormat format);
 
-/// The whole of files that write_listing has written of each part, in any order. Throws InputError, naming the file,
-/// for one that is cut off, belongs to another whole, or is there twice, and if one is missing.
+/// The whole of files that write_listing has written of each part, in any order, of which a row each is in memory. The
+/// files must stay as they are. Throws InputError, naming the file, for one that is cut off, belongs to another whole,
+/// or is there twice, and if one is missing.
 ConflictListing merged_listing(const std::vector<std::filesystem::path>& files);
 
 }  // namespace mobbscope::cli

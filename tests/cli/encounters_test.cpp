@@ -214,12 +214,23 @@ TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
         folder.write("part2.json", run_program({"conflicts", file, option, value, "--part", "2/3"}).out);
         expect_refused(run_program(merge(files)), 2, "part2.json: is a part of another whole");
     }
-    json wrong = json_of({"conflicts", file, "--part", "2/3"});
+    const std::string right = run_program({"conflicts", file, "--part", "2/3"}).out;
+    const std::size_t numbers = right.find("\"agents\": [") + std::string_view("\"agents\": ").size();
     for (const json& agents : {json{-5, -7}, json{70, 3}, json{3, 3}, json{1.5, 2}, json{1, 1e300}}) {
-        wrong["conflicts"][0]["agents"] = agents;
-        folder.write("part2.json", wrong.dump());
-        expect_refused(run_program(merge(files)), 2, "ask for this part again");
+        std::string wrong = right;
+        folder.write("part2.json", wrong.replace(numbers, right.find(']', numbers) + 1 - numbers, agents.dump()));
+        const Result refused = run_program(merge(files));
+        expect_refused(refused, 2, "ask for this part again");
+        EXPECT_NE(refused.err.find("part2.json: line 12: is not as it was written"), std::string::npos) << refused.err;
     }
+    json wrong = json::parse(right);
+    folder.write("part2.json", wrong.dump());
+    expect_refused(run_program(merge(files)), 2, "ask for this part again");
+    // Two rows change places.
+    const std::size_t first = right.find("    {"), second = right.find("    {", first + 1);
+    folder.write("part2.json", right.substr(0, first) + right.substr(second, right.find("    {", second + 1) - second) +
+                                   right.substr(first, second - first) + right.substr(right.find("    {", second + 1)));
+    expect_refused(run_program(merge(files)), 2, "ask for this part again");
     for (const json& part : {json{2.5, 3}, json{0, 0}, json{2, 1e300}}) {
         wrong["part"] = part;
         folder.write("part2.json", wrong.dump());
@@ -227,9 +238,10 @@ TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
     }
     folder.write("part2.json", run_program({"conflicts", file, "--part", "2/3"}).out);
     // Killed half way, and asked again.
-    const std::string whole = read_file(files[1]);
-    folder.write("part2.json", whole.substr(0, whole.size() / 2));
-    expect_refused(run_program(merge(files)), 2, "part2.json: is not whole; ask for this part again");
+    for (const std::size_t size : {right.size() / 9000, std::size_t{100}, right.size() / 2, second, right.size() - 3}) {
+        folder.write("part2.json", right.substr(0, size));
+        expect_refused(run_program(merge(files)), 2, "part2.json: is not whole; ask for this part again");
+    }
     folder.write("part2.json", run_program({"conflicts", file, "--part", "2/3"}).out);
     EXPECT_EQ(run_program(merge(files)).out, run_program({"conflicts", file}).out);
 }
