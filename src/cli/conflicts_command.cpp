@@ -190,7 +190,8 @@ void tell_times(const Findings& findings, const mobb::PeopleConflict& conflict, 
     mobb::MaybeSeconds encroachment = mobb::post_encroachment_time(clip_a, clip_b, deepest);
     const auto [first_a, end_a] = findings.crowd.paths_beside(deepest.a);
     const auto [first_b, end_b] = findings.crowd.paths_beside(deepest.b);
-    for (int a = first_a; a < end_a; ++a) {
+    // Where they overlap both are 0 already.
+    for (int a = first_a; a < end_a && deepest.least_clearance >= 0; ++a) {
         for (int b = first_b; b < end_b; ++b) {
             if (a == deepest.a && b == deepest.b) continue;
             const mobb::PlacedClip &one = findings.clip(a), &other = findings.clip(b);

@@ -282,6 +282,7 @@ Scene load(const std::filesystem::path& file, const ImportOptions& options, Radi
                                            [&] { return metres_of(*options.radius, clip.name, ""); });
             clip.clip = with_radius(*clip.clip, metres);
             clip.body.clear();
+            clip.own_body = false;
             clip.headings.clear();
             make_members(clip);
             clip.digest.reset();

@@ -91,7 +91,7 @@ double apart(const Range& a, const Range& b) {
 template <class Bound, class Value>
 class Least {
   public:
-    /// `value_of` may give any greater value in place of one that is no less than the third number it is given.
+    /// `value_of(i, j, least)`: of two samples, exactly where it is below `least`; else anything that is not.
     Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
         : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
         visit(0, 0, bound_(a_[0], b_[0]));

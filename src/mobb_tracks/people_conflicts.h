@@ -28,8 +28,8 @@ struct PeopleConflict {
 struct ConflictSearch {
     double within = 0;         ///< metres >= 0 between the disks; 0: those who collide
     double least_seconds = 0;  ///< whom no interval keeps so close for so long is left out
-    Region
-        region;  ///< pairs whose paths, the first two that do, first come near each other in it (Region::has) are found
+    /// Pairs are found where the first two of their paths that ever come near each other first do so (Region::has).
+    Region region;
     /// Measures every pair of samples of every pair of paths, and sweeps nothing; the region must be all.
     bool direct = false;
     /// By person, or empty: numbers of floors, 0 where nobody says. People of two floors never meet.

@@ -62,10 +62,16 @@ SceneQuery QueryList::operator[](std::size_t index) const {
         return !scene_->clips[static_cast<std::size_t>(who.clip)].members.empty();
     };
     if (!has_body(out.a) && !has_body(out.b)) return out;
-    const std::lock_guard lock(known_->mutex);
-    if (known_->members.size() >= kMostKnown) known_->members.clear();
-    const auto [at, is_new] = known_->members.try_emplace(index);
-    if (is_new) at->second = asked_members(out);
+    std::unique_lock lock(known_->mutex);
+    auto at = known_->members.find(index);
+    if (at == known_->members.end()) {
+        lock.unlock();
+        // Who else finds it meanwhile finds the same.
+        const std::pair<int, int> found = asked_members(out);
+        lock.lock();
+        if (known_->members.size() >= kMostKnown) known_->members.clear();
+        at = known_->members.insert_or_assign(index, found).first;
+    }
     std::tie(out.a.member, out.b.member) = at->second;
     return out;
 }

@@ -324,7 +324,10 @@ class SceneReader {
         }
         if (const auto headings = place.find("headings")) clip.headings = read_headings(*headings, place, clip);
         // A radius that is asked for is everyone's.
-        if (overrides_.radius && clip.source) clip.body.clear();
+        if (overrides_.radius && clip.source) {
+            clip.body.clear();
+            clip.own_body = false;
+        }
         if (clip.body.empty()) return;
         if (!bodies_.try_add(clip.body.size() * clip.clip->samples().size_bytes()))
             (body ? *body : place).fail("with this one the bodies of the scene take too much memory; leave disks out");

@@ -274,13 +274,12 @@ TEST(Sanity, TimesThatGoBackAreNamed) {
         back += formatted("a,%.2f,%.2f,0\nb,%.2f,%.2f,5\n", 1.95 + 0.1 * i, 4 + 0.1 * i, 1.95 + 0.1 * i, 4 + 0.1 * i);
     EXPECT_EQ(finding(csv_clips(in_order)[0], "go back"), nullptr);
     const auto read = csv_clips(in_order + back);
-    EXPECT_NE(finding(read[0], "times go back by 1.95 in line 82 and 1 row more: was the clock set back"), nullptr);
+    EXPECT_NE(finding(read[0], "times go back in line 82 and 1 row more: was the clock set back"), nullptr);
     // At the same moments again.
     std::string again = in_order;
     for (int i = 0; i < 40; ++i) again += formatted("a,%.2f,%.2f,0\n", 2 + 0.1 * i, 4 + 0.1 * i);
     const std::string refused = csv_refusal(again);
-    EXPECT_NE(refused.find("remove one, or: times go back by 1.9 in line 82: was the clock"), std::string::npos)
-        << refused;
+    EXPECT_NE(refused.find("remove one, or: times go back in line 82: was the clock"), std::string::npos) << refused;
     // Rows in any order do not go back.
     std::string backwards = kSanityHead;
     for (int i = 40; i > 0; --i) backwards += formatted("a,%.2f,%.2f,0\n", 0.1 * i, 0.1 * i);

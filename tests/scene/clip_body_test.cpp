@@ -84,7 +84,8 @@ TEST(ClipBody, IsRefusedInOneLine) {
         {clip(R"(, "body": [[0, 1, -1]])"), "/clips/c/body/0/2: -1 is out of range"},
         {clip(R"(, "body": 3)"), "/clips/c/body: expected an array, found a number"},
         {clip(R"(, "bodi": 3)"), "the nearest known key is 'body'"},
-        {clip(R"(, "body": [[0,1,1]], "headings": [1])"), "/clips/c/headings: has 1 elements; give degrees, one a sample"},
+        {clip(R"(, "body": [[0,1,1]], "headings": [1])"),
+         "/clips/c/headings: has 1 elements; give degrees, one a sample"},
         {clip(R"(, "headings": [1, 2])"), "they are those of a body; give a body, or remove them"},
         {scene_refusal(two_cars(R"(, "floor": "")", "")), "/agents/0/floor: a floor has a name or a number"},
         {scene_refusal(two_cars(R"(, "flor": 1)", "")), "the nearest known key is 'floor'"},
@@ -98,8 +99,7 @@ TEST(ClipBody, IsRefusedInOneLine) {
 }
 
 TEST(ClipBody, IsNotPlayedByARun) {
-    const std::string text =
-        R"({"clips": {"car": )" + kCar + R"(}, "graph": {"hubs": [{"name": "h"}],
+    const std::string text = R"({"clips": {"car": )" + kCar + R"(}, "graph": {"hubs": [{"name": "h"}],
         "moves": [{"clip": "car", "from": 0, "to": 0, "entry": [0, 0, 0], "exit": [5, 5, 0]}]}})";
     EXPECT_NE(scene_refusal(text).find("its clips have no body; remove the body"), std::string::npos)
         << scene_refusal(text);

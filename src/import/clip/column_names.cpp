@@ -151,7 +151,9 @@ PlainName plain_name(std::string_view name) {
     if (unit != std::string::npos && unit > 0) {
         std::string word = text.substr(unit + 1);
         if (!word.empty() && (word.back() == ']' || word.back() == ')')) word.pop_back();
-        if (mark != std::string::npos || metres_of_unit(word) || size_of(kTimes, word) || size_of(kAngles, word)) {
+        // "x_min" is the least x.
+        const bool is_time = word != "min" && word != "h" && size_of(kTimes, word);
+        if (mark != std::string::npos || metres_of_unit(word) || is_time || size_of(kAngles, word)) {
             out.unit = trimmed(word);
             text.resize(unit);
         }

@@ -128,15 +128,15 @@ PointDetail RowReader::detail(const Cells& cells) {
     std::string name(cells.text(place));
     if (!is_utf8(name)) cells.fail(place, "the floor is not UTF-8 text; save the file as UTF-8");
     if (const std::optional<double> level = parse_double(name)) name = format_double(*level);
-    const auto at = std::ranges::find(floors_, name);
-    out.floor = static_cast<int>(at - floors_.begin());
-    if (at == floors_.end()) floors_.push_back(std::move(name));
+    const auto [at, is_new] = floors_.try_emplace(std::move(name), static_cast<int>(floors_.size()));
+    out.floor = at->second;
     return out;
 }
 
 void RowReader::tell_details(TrackFile& file) {
     file.details = tracks_.take_details();
-    file.floors = std::move(floors_);
+    file.floors.resize(floors_.size());
+    for (const auto& [name, number] : floors_) file.floors[static_cast<std::size_t>(number)] = name;
     file.has_sizes = std::ranges::any_of(
         file.details, [](const PointDetail& detail) { return detail.length > 0 && detail.width > 0; });
     file.body_columns = body_columns;
@@ -240,6 +240,8 @@ TrackFile RowReader::finish() {
     if (is_clock_ && has_morning_ && !has_midday_ && last_of_all_ >= kEvening) {
         tracks_.add_to_early(kMorning, kDay);
         out.warnings.push_back({"the clock goes over midnight: times before 6:00 are of the day after"});
+    } else if (const std::string back = tracks_.step_back(); out.has_times && !back.empty()) {
+        out.warnings.push_back({back + "; till then rows count in order of time"});
     }
     const auto twice = [&](const Track& track, const TrackPoint& row) {
         return time_word() + ' ' + format_double(row.frame) + (out.timed ? rounded_time_hint(row.frame) : "") +
@@ -255,8 +257,6 @@ TrackFile RowReader::finish() {
             for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);
         }
     }
-    if (const std::string back = tracks_.step_back(); out.has_times && !back.empty())
-        out.warnings.push_back({back + "; till then rows count in order of time"});
     out.spent = tracks_.take_spent();
     tell_details(out);
     if (lost_ > 0) {

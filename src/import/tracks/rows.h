@@ -119,7 +119,7 @@ class RowReader {
     std::optional<double> id_{};   ///< of the last row, where ids are whole numbers
     std::string id_text_{};
     std::string scoped_id_{};
-    std::vector<std::string> floors_{};
+    std::unordered_map<std::string, int> floors_{};  ///< numbers from 0, by name
     std::size_t scope_size_ = 0;                     ///< of that in front of the id
     std::size_t lost_ = 0, riding_ = 0, empty_ = 0;  ///< rows that are left out
     int first_empty_ = 0;                            ///< line

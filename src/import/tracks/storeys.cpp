@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace mobbscope {
@@ -29,8 +30,20 @@ double least_storey(const TrackFile& file, double metres) {
 Storeys storeys_of(const TrackFile& file, double metres) {
     Storeys out;
     if (!file.floors.empty()) {
+        const auto is_share = [](const std::string& name) {
+            const std::optional<double> level = parse_double(name);
+            return level && 2 * *level != std::floor(2 * *level);
+        };
+        if (std::ranges::any_of(file.floors, is_share)) {
+            out.remark = "the levels of the rows are no floors, such as " +
+                         in_quotes(*std::ranges::find_if(file.floors, is_share)) + ": they keep nobody apart";
+            return out;
+        }
         out.names = file.floors;
         for (const PointDetail& detail : file.details) out.by_detail.push_back(detail.floor);
+        if (out.names.size() > 1)
+            out.remark =
+                "the rows name " + std::to_string(out.names.size()) + " floors: those of different floors never meet";
         return out;
     }
     std::vector<std::pair<double, std::size_t>> heights;

@@ -13,7 +13,7 @@ namespace mobbscope {
 struct Storeys {
     std::vector<std::string> names{};
     std::vector<int> by_detail{};  ///< of names, by TrackFile::details; -1: nobody says
-    std::string remark{};          ///< of heights; empty: there is nothing to say
+    std::string remark{};          ///< what was taken; empty: there is nothing to say
 
     int of(const TrackPoint& point) const {
         return point.detail > 0 && !names.empty() ? by_detail[static_cast<std::size_t>(point.detail) - 1] : -1;

@@ -168,15 +168,15 @@ void TableColumns::choose_columns() {
                 rows_[column].emplace(text, std::span<const std::string>(names));
         }
         take_boxes();
+        for (const Column column : {Column::id, Column::label, Column::lost, Column::active, Column::floor}) {
+            if (rows_[column] && !rows_[column]->only_column())
+                fail_in_header("columns: " + std::string(name(column)) + " is one column, and nothing to work out");
+        }
+        for (const Column column : kColumns) take_by_name(column);
+        take_stamp();
     } catch (const std::invalid_argument& error) {
         fail_in_header(error.what());
     }
-    for (const Column column : {Column::id, Column::label, Column::lost, Column::active, Column::floor}) {
-        if (rows_[column] && !rows_[column]->only_column())
-            fail_in_header("columns: " + std::string(name(column)) + " is one column, and nothing to work out");
-    }
-    for (const Column column : kColumns) take_by_name(column);
-    take_stamp();
     name_radius_column();
     settle_bodies();
     for (const Column needed : {Column::x, Column::y}) {
@@ -208,7 +208,7 @@ void TableColumns::take_stamp() {
     const auto ending = [this](std::string_view one, std::string_view other) {
         const auto at = std::ranges::find_if(names, [&](const std::string& name) {
             const std::string word = plain_name(name).word;
-            return word.ends_with(one) || word.ends_with(other);
+            return name.find('"') == std::string::npos && (word.ends_with(one) || word.ends_with(other));
         });
         return at == names.end() ? "" : '"' + *at + '"';
     };
@@ -237,7 +237,13 @@ void TableColumns::settle_bodies() {
     if (rows_[Column::heading]) rows_.heading_column = "the column " + column_words(Column::heading);
     rows_.guesses_angles = rows_.guesses_angles && rows_[Column::heading];
     leave(Column::floor, !rows_[Column::id]);
-    leave(Column::z, !rows_.has_ids() || rows_[Column::floor]);
+    // Where y points up, z is the ground.
+    const auto is_used = [&](Column column) {
+        if (!rows_[column] || !rows_[Column::z]) return false;
+        const std::vector<std::size_t> of = rows_[column]->columns(), heights = rows_[Column::z]->columns();
+        return !heights.empty() && std::ranges::find(of, heights.front()) != of.end();
+    };
+    leave(Column::z, !rows_.has_ids() || rows_[Column::floor] || is_used(Column::x) || is_used(Column::y));
 }
 
 void TableColumns::find_scopes() {
@@ -308,6 +314,7 @@ void TableColumns::take_by_name(Column column) {
         // A column that was chosen as it is keeps the unit that its name says.
         const std::optional<std::size_t> only = chosen->only_column();
         const std::optional<KnownColumn> here = only ? known_column(names[*only]) : std::nullopt;
+        if (column == Column::heading) rows_.guesses_angles = only && (!here || !here->says_unit);
         if (!here || !here->says_unit || (here->column == Column::t) != (column == Column::t)) return;
         found.push_back(*only);
         known.push_back(*here);
@@ -343,7 +350,7 @@ void TableColumns::take_by_name(Column column) {
         return;
     }
     if (column == Column::heading && format == "sumo") {
-        rows_[column].emplace("90-" + names[found.front()], std::span<const std::string>(names));
+        rows_[column].emplace("90-" + shown(names[found.front()]), std::span<const std::string>(names));
         return;
     }
     if (column == Column::heading) {

@@ -12,7 +12,7 @@
 
 namespace mobbscope {
 
-constexpr std::string_view kRobot = "robot";  ///< the id of the only one, and the class
+inline constexpr std::string_view kRobot = "robot";  ///< the id of the only one, and the class
 
 /// A name within a message.
 std::string shown(const std::string& name);

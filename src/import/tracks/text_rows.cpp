@@ -368,8 +368,8 @@ class TextRows final : public Cells {
             of = {std::min(of.least, *at), std::max(of.most, *at), *at, of.changes};
         }
     }
-    /// What is said then.
-    void tell_height() {
+    /// What is said then; heights are no floors.
+    void tell_height(TrackFile& file) {
         constexpr std::size_t kFewest = 10;  // places
         constexpr double kFlat = 0.01, kGoes = 0.25;
         const auto length = [](const Spread& of) { return of.most - of.least; };
@@ -377,6 +377,7 @@ class TextRows final : public Cells {
         if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
         const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
                           &ground = columns_.names[*columns_.height];
+        for (PointDetail& detail : file.details) detail.z = PointDetail::kUntold;
         columns_.warnings.push_back({"the column " + in_quotes(flat) + " hardly changes and " + in_quotes(ground) +
                                          " does: if " + flat + " points up, as in Unity, give columns (y=" + ground +
                                          ")",
@@ -473,7 +474,7 @@ class TextRows final : public Cells {
     /// The tracks, and what is said of the columns.
     TrackFile finished() {
         TrackFile out = rows_.finish();
-        if (columns_.height) tell_height();
+        if (columns_.height) tell_height(out);
         out.others = columns_.tell_ignored();
         if (decimal_commas_)
             columns_.warnings.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});

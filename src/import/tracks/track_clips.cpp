@@ -275,7 +275,7 @@ class TrackClipMaker {
         out.body = std::move(body.disks);
         out.headings = std::move(headings);
         out.id = part.id;
-        out.floor = track.scope + part.floor;
+        out.floor = track.scope + (track.scope.empty() || part.floor.empty() ? "" : ", floor ") + part.floor;
         if (!file_.alone)
             out.start = resampled ? start + first * dt : clock_.time(points.front().frame + first * grid.step);
         out.clip = std::make_shared<mobb::Clip>(dt, std::move(samples), options_.motion.value_or(usual_motion(file_)));

@@ -35,10 +35,7 @@ void TrackCollector::add(std::string_view id, TrackPoint point, std::string_view
     spent_.cover(used_, "its rows", file_);
     std::vector<TrackPoint>& points = tracks_[last_].points;
     ++rows_;
-    if (!points.empty() && point.frame < points.back().frame) {
-        if (steps_back_++ == 0) back_line_ = point.line;
-        back_by_ = std::max(back_by_, points.back().frame - point.frame);
-    }
+    if (!points.empty() && point.frame < points.back().frame && steps_back_++ == 0) back_line_ = point.line;
     push_to(points, point);
 }
 
@@ -46,7 +43,7 @@ std::string TrackCollector::step_back() const {
     // Rows in any order step back all the time.
     constexpr std::size_t kFewestRows = 10;
     if (steps_back_ == 0 || rows_ < kFewestRows * steps_back_) return "";
-    return "times go back by " + brief(back_by_) + " in " + at_line(back_line_) +
+    return "times go back in " + at_line(back_line_) +
            (steps_back_ > 1 ? " and " + counted(steps_back_ - 1, "row", "rows") + " more" : "") +
            ": was the clock set back, or does another recording begin? Give other ids from there on if so";
 }
@@ -59,18 +56,6 @@ void TrackCollector::add_to_early(double before, double more) {
 
 std::string TrackCollector::is_twice(const Track& track, const TrackPoint& point) {
     return in_quotes(track.id) + " is in frame " + format_double(point.frame) + " already in line ";
-}
-
-TrackFile TrackCollector::take_timed(bool in_milliseconds) {
-    TrackFile out;
-    out.timed = true;
-    out.least_step.reset();
-    if (in_milliseconds) out.rounding = kMillisecond;
-    out.tracks = take_sorted([](const Track& track, const TrackPoint& point) {
-        return "the time " + format_double(point.frame) + " of " + in_quotes(track.id) + " stands already in line ";
-    });
-    out.spent = take_spent();
-    return out;
 }
 
 std::vector<Track> TrackCollector::take_sorted(const std::function<std::string(const Track&, const TrackPoint&)>& twice,

@@ -67,40 +67,41 @@ struct TrackFile {
     std::string format;         ///< "obsmat", "trajnet", "trajnetpp", "petrack", "jupedsim", "sdd", "mapf", "csv"
     std::vector<Track> tracks;  ///< at least one; ids differ; in order of first appearance
 
-    bool alone = false;              ///< the file has no ids: its one track is a motion that is held, and nobody's
-    bool timed = false;              ///< the points have times in seconds in place of frame numbers; rate is 1
-    bool has_times = true;           ///< else they are numbered, and dt must say how far they are apart
-    double rounding = 0;             ///< seconds: what all of those times are rounded to; 0: that is not known
+    bool alone = false;           ///< the file has no ids: its one track is a motion that is held, and nobody's
+    bool timed = false;           ///< the points have times in seconds in place of frame numbers; rate is 1
+    bool has_times = true;        ///< else they are numbered, and dt must say how far they are apart
+    bool rate_of_steps = false;   ///< the rate counts usual steps from point to point, not frame numbers
+    bool fps_is_rate = false;     ///< the option fps says the rate, and resamples nothing
+    bool has_radius = false;      ///< the points have radii, in file units
+    bool has_sizes = false;       ///< some points have a length and a width
+    bool place_is_front = false;  ///< x and y are in the middle of a body's front, else of the body
+    bool in_pixels = false;       ///< lengths are of an image, which tell no metres
+    bool is_large = false;        ///< Input::is_large: the budget alone bounds its samples
+    ClassSize class_size = ClassSize::none;
+
+    int header_line = 0;             ///< of a table, from 1; 0: there is no header
+    double rounding = 0;             ///< seconds: what all times are rounded to; 0: that is not known
     std::optional<double> rate = 1;  ///< frames per second, see rate_of_steps; none: fps or dt must say it
-    bool rate_of_steps = false;      ///< the rate counts usual steps from point to point, not frame numbers
-    bool fps_is_rate = false;        ///< the option fps says the rate, and resamples nothing
     /// Frames between points, where no track has two; none: then dt must say it.
     std::optional<double> least_step = 1;
     std::string rate_assumption{};
 
-    bool has_radius = false;  ///< the points have radii, in file units
-    std::vector<PointDetail> details{};
-    bool has_sizes = false;        ///< some points have a length and a width
-    std::string body_columns{};    ///< who says so, for a message: "the columns 'length' and 'width'"
-    std::string heading_column{};  ///< empty: there are no headings
-    bool place_is_front = false;   ///< x and y are in the middle of a body's front, else of the body
-    ClassSize class_size = ClassSize::none;
-    std::vector<std::string> floors{};
-
     double unit = 1;                         ///< metres per file unit
-    bool in_pixels = false;                  ///< of an image, which tell no metres
     std::optional<double> guessed_height{};  ///< metres: how high the heads are, where that decided the unit
     std::string unit_assumption{};
 
-    std::vector<ImportWarning> warnings{};  ///< what was ignored
-    Spent spent{};                          ///< of the budget
-    bool is_large = false;                  ///< Input::is_large: the budget alone bounds its samples
+    std::vector<PointDetail> details{};
+    std::vector<std::string> floors{};  ///< names, see PointDetail::floor
+    std::string body_columns{};         ///< who says sizes, for a message: "the columns 'length' and 'width'"
+    std::string heading_column{};       ///< empty: there are no headings
 
     // Of tables:
     std::string id_column{};            ///< its name, "Vehicle_ID"
     std::string time_column{};          ///< its name, where it is one
-    int header_line = 0;                ///< from 1; 0: there is no header
     std::vector<std::string> others{};  ///< names of columns that were ignored, each once
+
+    std::vector<ImportWarning> warnings{};  ///< what was ignored
+    Spent spent{};                          ///< of the budget
 };
 
 /// What the documents say of a format of tracks.
@@ -139,10 +140,8 @@ class TrackCollector {
                                    bool once = false);
     std::size_t repeated() const { return repeated_; }      ///< rows that were left out
     int first_repeated() const { return first_repeated_; }  ///< line
-    /// "times go back by 3 s in line 42, ...", of rows that are in order else; "" if they do not.
+    /// "times go back in line 42 ...", of rows that are in order else; "" if they do not.
     std::string step_back() const;
-    /// A file of them, by times; `in_milliseconds`: all of these are rounded so. Throws likewise.
-    TrackFile take_timed(bool in_milliseconds);
     /// As they came.
     std::vector<Track> take() { return std::move(tracks_); }
     std::vector<PointDetail> take_details() { return std::move(details_); }
@@ -160,7 +159,6 @@ class TrackCollector {
     std::size_t repeated_ = 0;
     int first_repeated_ = 0;
     std::size_t rows_ = 0, steps_back_ = 0;  ///< rows; those with a lower frame than the track's row before
-    double back_by_ = 0;                     ///< the farthest
     int back_line_ = 0;                      ///< of the first
     std::unordered_map<std::string, std::size_t> index_;
     std::size_t last_ = 0;  ///< the track that had a point last

@@ -249,7 +249,7 @@ Caption moment_caption(const Palette& palette, std::span<const DrawnAgent> agent
     }
     if (const std::string waiting = who_waits(agents, moment); !waiting.empty()) add_detail(waiting);
     if (out.detail.empty()) {
-        add_detail("all " + std::to_string(count) + " are on the floor then");
+        add_detail((count == 1 ? "" : "all " + std::to_string(count) + " are ") + std::string("on the floor then"));
     }
     return out;
 }
