@@ -206,15 +206,15 @@ FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::
     const Ranges a(clip_a, runs ? 1 : kLeaf);
     const Ranges b(clip_b, runs ? 1 : kLeaf);
     std::int64_t visits = most_visits;
-    constexpr double kNever = std::numeric_limits<double>::infinity();
+    constexpr double kApart = std::numeric_limits<double>::infinity();
     const auto gap = [](double begin_a, double end_a, double begin_b, double end_b) {
         return std::max(begin_b - end_a, begin_a - end_b);
     };
     const auto gap_bound = [&](const Range& ra, const Range& rb) {
-        if (apart(ra, rb) > 0) return kNever;
+        if (apart(ra, rb) > 0) return kApart;
         const double between = gap(a.begin(ra.first), a.end(ra.end - 1), b.begin(rb.first), b.end(rb.end - 1));
         // In ranges that share time there may be samples that share any of it.
-        return between > 0 ? between : runs ? 0 : -kNever;
+        return between > 0 ? between : runs ? 0 : -kApart;
     };
     const auto narrowed = [&](LaggedPair pair) {
         visits -= kRunningPair;
@@ -225,12 +225,12 @@ FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::
         if (runs) {
             visits -= kLookedAtPair;
             const LaggedPair pair(a.swept(i), b.swept(j));
-            if (!pair.may_overlap(least)) return kNever;
+            if (!pair.may_overlap(least)) return kApart;
             const LaggedPair nearest = narrowed(pair);
-            return nearest.apart() < 0 ? std::abs(nearest.lag()) : kNever;
+            return nearest.apart() < 0 ? std::abs(nearest.lag()) : kApart;
         }
         --visits;
-        return collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kNever;
+        return collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kApart;
     };
     const Least meeting(a, b, visits, gap_bound, gap_value);
     if (visits < 0) return {};

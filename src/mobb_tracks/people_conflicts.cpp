@@ -205,8 +205,8 @@ std::size_t PeopleConflicts::pairs() const {
 }
 
 std::pair<int, int> PeopleConflicts::paths_of(int person) const {
-    const auto range = std::ranges::equal_range(person_of_, person);
-    return {static_cast<int>(range.begin() - person_of_.begin()), static_cast<int>(range.end() - person_of_.begin())};
+    const auto [first, end] = std::equal_range(person_of_.begin(), person_of_.end(), person);
+    return {static_cast<int>(first - person_of_.begin()), static_cast<int>(end - person_of_.begin())};
 }
 
 bool PeopleConflicts::are_apart(int person, int other) const {

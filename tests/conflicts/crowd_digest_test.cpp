@@ -1,5 +1,6 @@
 // Parts are of one whole if their crowds are the same, bodies and floors included; a conflict is of agents, not of
 // disks.
+#include <conflicts/conflicts.h>
 #include <conflicts/crowd.h>
 
 #include <gtest/gtest.h>

@@ -83,8 +83,9 @@ void find_pairs(Moment& moment) {
     std::ranges::sort(moment.overlaps, {}, [&](const BodyPair& pair) {
         return std::tuple(agents_of(pair), pair.clearance, pair.a, pair.b);
     });
-    const auto others = std::ranges::unique(moment.overlaps, {}, agents_of);
-    moment.overlaps.erase(others.begin(), others.end());
+    const auto same_agents = [&](const BodyPair& a, const BodyPair& b) { return agents_of(a) == agents_of(b); };
+    moment.overlaps.erase(std::unique(moment.overlaps.begin(), moment.overlaps.end(), same_agents),
+                          moment.overlaps.end());
     if (!moment.overlaps.empty()) moment.nearest.reset();
 }
 
