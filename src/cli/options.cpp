@@ -194,7 +194,9 @@ void check_asks(const FittedScene& scene, const std::filesystem::path& file) {
     if (!scene.queries().empty()) return;
     if (scene.scene().crowd)
         throw InputError(file, "a run has no queries; mobbscope conflicts finds who collides in it");
-    throw InputError(file, "there are no queries; add some, or at least two agents");
+    throw InputError(file, scene.scene().agents.size() > 1
+                               ? "there are no queries: all agents are on different floors, which are not asked"
+                               : "there are no queries; add some, or at least two agents");
 }
 
 std::filesystem::path parse_file_name(const std::string& text) {

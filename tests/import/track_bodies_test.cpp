@@ -44,6 +44,45 @@ TEST(TrackBodies, LengthAndWidthBecomeDisksInARow) {
     EXPECT_EQ(csv_clips("t,x,y,length,width\n0,0,0,4.6,1.9\n1,3,0,4.6,1.9\n")[0].body, car.body);
 }
 
+TEST(TrackBodies, WhoStandsInThePartThatIsTakenKeepsItsHeading) {
+    std::string text = "id,t,x,y,length,width\n";
+    for (int t = 0; t < 6; ++t)
+        text += "1," + std::to_string(t) + ",0," + std::to_string(std::min(t, 2)) + ",4.6,1.9\n";
+    ImportOptions trimmed;
+    trimmed.trim = {3, 5};
+    const ImportedClip car = csv_clips(text, trimmed)[0];
+    ASSERT_EQ(car.headings.size(), 3);
+    for (const double heading : car.headings) EXPECT_NEAR(heading, 90, 1e-9);
+}
+
+TEST(TrackBodies, HeadingsThatNobodyCanReadAreTold) {
+    const ImportedClip car = csv_clips(two_rows("length,width,heading", "4.6,1.9,north"))[0];
+    EXPECT_TRUE(warns(car, "2 rows have no heading that can be read"));
+    ImportOptions turned;
+    turned.columns = "heading=0-psi";
+    const ImportedClip other = csv_clips(two_rows("length,width,psi", "4.6,1.9,-1.5707963267948966"), turned)[0];
+    ASSERT_EQ(other.headings.size(), 2);
+    EXPECT_NEAR(other.headings[0], 90, 1e-9) << "worked out, it is in radians by its values";
+    EXPECT_TRUE(warns(csv_clips(two_rows("length,width", "4600,1900"))[0], "check the unit of their sizes"));
+}
+
+TEST(TrackBodies, LevelsThatAreNoFloorsKeepNobodyApart) {
+    const auto noise = csv_clips("id,t,x,y,level\n1,0,0,0,0.31\n2,0,1,0,0.72\n1,1,1,0,0.31\n2,1,2,0,0.72\n");
+    EXPECT_EQ(noise[0].floor, "");
+    EXPECT_TRUE(warns(noise[0], "the levels of the rows are no floors, such as '0.31'"));
+    // Heights in centimetres, of people who stay on their floors and hardly move in y.
+    std::string text = "id,t,x,y,z_cm\n";
+    for (int t = 0; t < 9; ++t) {
+        text += "1," + std::to_string(t) + ',' + std::to_string(t) + ",0,0\n";
+        text += "2," + std::to_string(t) + ',' + std::to_string(9 - t) + ",0.1,350\n";
+    }
+    const auto apart = csv_clips(text);
+    EXPECT_NE(apart[0].floor, apart[1].floor);
+    EXPECT_FALSE(warns(apart[0], "points up"));
+    EXPECT_TRUE(csv_clips("id,t,x_min,y_min,x_max,y_max\n1,0,0,0,2,2\n1,1,1,0,3,2\n")[0].clip->samples()[0].x == 1)
+        << "the least x is no x in minutes";
+}
+
 TEST(TrackBodies, SizesAreOfWholeTracks) {
     const auto read = csv_clips(
         "id,t,x,y,length,width,class\n1,0,0,0,4,2,\n1,1,1,0,5,2,\n1,2,2,0,5,2,\n2,0,0,9,0,0,pedestrian\n"

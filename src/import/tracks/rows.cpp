@@ -141,6 +141,13 @@ void RowReader::tell_details(TrackFile& file) {
         file.details, [](const PointDetail& detail) { return detail.length > 0 && detail.width > 0; });
     file.body_columns = body_columns;
     file.heading_column = heading_column;
+    const auto lost =
+        std::ranges::count_if(file.details, [](const PointDetail& detail) { return std::isnan(detail.heading); });
+    if (lost > 0 && !heading_column.empty())
+        file.warnings.push_back({counted(static_cast<std::size_t>(lost), "row has", "rows have") +
+                                     " no heading that can be read: the one before counts, or the next; without any "
+                                     "the direction of motion",
+                                 "columns"});
     if (!guesses_angles) return;
     constexpr double kFullTurn = 2 * std::numbers::pi * 1.001;
     const auto is_small = [](const PointDetail& detail) { return !(std::abs(detail.heading) > kFullTurn); };

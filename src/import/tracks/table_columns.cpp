@@ -314,7 +314,7 @@ void TableColumns::take_by_name(Column column) {
         // A column that was chosen as it is keeps the unit that its name says.
         const std::optional<std::size_t> only = chosen->only_column();
         const std::optional<KnownColumn> here = only ? known_column(names[*only]) : std::nullopt;
-        if (column == Column::heading) rows_.guesses_angles = only && (!here || !here->says_unit);
+        if (column == Column::heading) rows_.guesses_angles = !here || !here->says_unit;
         if (!here || !here->says_unit || (here->column == Column::t) != (column == Column::t)) return;
         found.push_back(*only);
         known.push_back(*here);

@@ -371,10 +371,23 @@ class TextRows final : public Cells {
     /// What is said then; heights are no floors.
     void tell_height(TrackFile& file) {
         constexpr std::size_t kFewest = 10;  // places
-        constexpr double kFlat = 0.01, kGoes = 0.25;
+        constexpr double kFlat = 0.01, kGoes = 0.25, kNever = std::numeric_limits<double>::max();
         const auto length = [](const Spread& of) { return of.most - of.least; };
         const auto& [x, y, z] = spread_;
         if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
+        // People on different floors each stay on theirs.
+        const auto climbs = [&](const Track& track) {
+            double least = kNever, most = -kNever;
+            for (const TrackPoint& point : track.points) {
+                const double at =
+                    point.detail > 0 ? file.details[static_cast<std::size_t>(point.detail) - 1].z : kNever;
+                if (!(std::abs(at) < kNever)) continue;
+                least = std::min(least, at);
+                most = std::max(most, at);
+            }
+            return most - least > kGoes * length(z);
+        };
+        if (rows_[Column::z] && std::ranges::none_of(file.tracks, climbs)) return;
         const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
                           &ground = columns_.names[*columns_.height];
         for (PointDetail& detail : file.details) detail.z = PointDetail::kUntold;

@@ -13,6 +13,9 @@ namespace mobbscope {
 
 namespace {
 
+constexpr double kTurn = 360;     // degrees
+constexpr double kLongest = 500;  // metres, of trains
+
 /// Metres.
 struct BodySize {
     double length = 0, width = 0;
@@ -98,7 +101,8 @@ std::string body_remark(const TrackFile& file, double metres) {
                " m, along " +
                (file.heading_column.empty() ? "the direction of motion" : "the heading (" + file.heading_column + ")") +
                (file.place_is_front ? "; x and y are the middle of the front" : "") +
-               (varying > 0 ? "; of sizes that vary along a track the median is taken" : "");
+               (varying > 0 ? "; of sizes that vary along a track the median is taken" : "") +
+               (most->length > kLongest ? "; no vehicle is so long: check the unit of their sizes" : "");
         if (others.empty()) return said + "; give radius for a plain disk";
         said += "; ";
     }
@@ -122,8 +126,20 @@ std::string body_remark(const TrackFile& file, double metres) {
            " are taken; give radius if that is wrong";
 }
 
+std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, double metres) {
+    std::vector<mobb::Disk> places;
+    for (const TrackPoint& point : track.points) places.push_back({point.x * metres, point.y * metres, 0});
+    const std::vector<double> all = mobb::headings_of(mobb::Clip(1, std::move(places)));
+    std::vector<double> out;
+    for (std::size_t i = 0, at = 0; i < points.size(); ++i) {
+        while (at + 1 < all.size() && track.points[at].frame < points[i].frame) ++at;
+        const double before = out.empty() ? all[at] : out.back();
+        out.push_back(before + std::remainder(all[at] - before, kTurn));
+    }
+    return out;
+}
+
 std::vector<double> headings_at(const TrackFile& file, std::span<const TrackPoint> points) {
-    constexpr double kTurn = 360;
     std::vector<double> out;
     if (file.heading_column.empty()) return out;
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -254,6 +254,9 @@ class TrackClipMaker {
         std::vector<mobb::Disk> samples;
         std::vector<double> headings;
         if (!body.disks.empty()) headings = headings_at(file_, points);
+        // Who stands in the part that is taken keeps the direction in which it came, or will go.
+        if (!body.disks.empty() && headings.empty() && (options_.trim || points.size() < track.points.size()))
+            headings = motion_headings_at(track, points, common_.unit);
         if (headings.empty()) {
             samples = samples_of(points);
         } else {
