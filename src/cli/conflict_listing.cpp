@@ -284,7 +284,7 @@ class PartReader {
             rest.append(lines_.line()) += '\n';
             has_lines_ = lines_.line() == "\"conflicts\": [";
         }
-        if (!rest.starts_with('{'))
+        if (!rest.empty() && rest.front() != '{')
             throw InputError(file_, "", "is no part; give what mobbscope conflicts --part K/N has written");
         if (has_lines_) rest += "]}";
         read_head(parsed(rest));

@@ -205,7 +205,7 @@ TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
             {files[0], folder.write("other.json",
                                     json_of({"conflicts", file, "--radius", "0.3", "--part", "2/3"}).dump() + "\n")})),
         2, "is a part of another whole");
-    expect_refused(run_program(merge({file})), 2, "is not whole");
+    expect_refused(run_program(merge({file})), 2, "is no part");
     expect_refused(run_program(merge({folder.write("whole.json", run_program({"conflicts", file, "--json"}).out)})), 2,
                    "is no part");
     // Of the same name, and something else.

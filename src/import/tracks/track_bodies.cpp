@@ -13,8 +13,8 @@ namespace mobbscope {
 
 namespace {
 
-constexpr double kTurn = 360;     // degrees
-constexpr double kLongest = 500;  // metres, of trains
+constexpr double kTurn = 360;                   // degrees
+constexpr double kLongest = 500, kWidest = 70;  // metres, of trains and ships
 
 /// Metres.
 struct BodySize {
@@ -102,7 +102,9 @@ std::string body_remark(const TrackFile& file, double metres) {
                (file.heading_column.empty() ? "the direction of motion" : "the heading (" + file.heading_column + ")") +
                (file.place_is_front ? "; x and y are the middle of the front" : "") +
                (varying > 0 ? "; of sizes that vary along a track the median is taken" : "") +
-               (most->length > kLongest ? "; no vehicle is so long: check the unit of their sizes" : "");
+               (most->length > kLongest || most->width > kWidest
+                    ? "; no vehicle is so large: check the unit of their sizes"
+                    : "");
         if (others.empty()) return said + "; give radius for a plain disk";
         said += "; ";
     }
