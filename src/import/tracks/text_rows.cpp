@@ -376,6 +376,7 @@ class TextRows final : public Cells {
         const auto& [x, y, z] = spread_;
         if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
         // People on different floors each stay on theirs.
+        const double least_climb = kGoes * length(z);
         const auto climbs = [&](const Track& track) {
             double least = kNever, most = -kNever;
             for (const TrackPoint& point : track.points) {
@@ -385,7 +386,7 @@ class TextRows final : public Cells {
                 least = std::min(least, at);
                 most = std::max(most, at);
             }
-            return most - least > kGoes * length(z);
+            return most - least > least_climb;
         };
         if (rows_[Column::z] && std::ranges::none_of(file.tracks, climbs)) return;
         const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
