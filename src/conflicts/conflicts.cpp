@@ -58,12 +58,6 @@ std::vector<Walked> walked_in(const Scene& scene) {
 
 }  // namespace
 
-std::vector<mobb::PlacedClip> placed_clips(const Scene& scene) {
-    std::vector<mobb::PlacedClip> out;
-    for (const PlacedAgent& path : placed_members(scene)) out.emplace_back(*path_of(scene, path), path.placement);
-    return out;
-}
-
 std::function<void(std::size_t bytes)> spend_on_conflicts() {
     return [spent = std::make_shared<Spent>()](std::size_t bytes) {
         if (!spent->try_cover(bytes))
@@ -76,14 +70,16 @@ std::string conflict_count(std::size_t conflicts, std::size_t people, double sec
            figure(seconds) + " s in all";
 }
 
+void add_doubt(std::vector<std::string>& doubts, const SceneClip& clip) {
+    const std::string& doubt = clip.facts.doubt;
+    // Clips of one file stand together: the last one is the one that is most likely.
+    if (doubt.empty() || (!doubts.empty() && doubts.back() == doubt)) return;
+    if (std::ranges::find(doubts, doubt) == doubts.end()) doubts.push_back(doubt);
+}
+
 std::vector<std::string> doubts_in(const Scene& scene) {
     std::vector<std::string> out;
-    for (const SceneClip& clip : scene.clips) {
-        const std::string& doubt = clip.facts.doubt;
-        // Clips of one file stand together.
-        if (!doubt.empty() && (out.empty() || out.back() != doubt) && std::ranges::find(out, doubt) == out.end())
-            out.push_back(doubt);
-    }
+    for (const SceneClip& clip : scene.clips) add_doubt(out, clip);
     return out;
 }
 

@@ -22,6 +22,8 @@ std::string conflict_count(std::size_t conflicts, std::size_t people, double sec
 /// Why the speeds in a scene's files are nobody's (SourceFacts::doubt), each once: no count of conflicts stands without
 /// it.
 std::vector<std::string> doubts_in(const Scene& scene);
+/// Adds the doubt of one of its clips, if there is one that is not among them yet.
+void add_doubt(std::vector<std::string>& doubts, const SceneClip& clip);
 
 /// A conflict of a scene or a run, with the paths on which its worst contact begins.
 struct SceneConflict {
@@ -43,8 +45,6 @@ std::string sentence(const SceneConflict& conflict);
 /// The most that are kept at once, some 600 bytes each.
 inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
 
-/// The paths of placed_members, as these place them. They refer to those of the scene.
-std::vector<mobb::PlacedClip> placed_clips(const Scene& scene);
 
 /// For mobb::ConflictSearch::spend: throws InputError where that is more than the budget (base/budget.h).
 std::function<void(std::size_t bytes)> spend_on_conflicts();

@@ -1,8 +1,7 @@
+#include <conflicts/conflicts.h>
 #include <conflicts/crowd.h>
 #include <conflicts/plan_conflicts.h>
 #include <mobb/capture.h>
-
-#include <algorithm>
 
 namespace mobbscope {
 
@@ -20,8 +19,7 @@ void Crowd::add(const SceneClip& clip, const Agent& agent, bool goes_on) {
     // Of takes each has its own.
     if (agents_.empty() && !is_scene_file(file_))
         t0_ = facts.first_key ? std::optional(*facts.first_key - clip.start) : facts.t0;
-    if (!facts.doubt.empty() && std::ranges::find(doubts_, facts.doubt) == doubts_.end())
-        doubts_.push_back(facts.doubt);
+    add_doubt(doubts_, clip);
     int samples_before = 0;
     if (goes_on) {
         samples_before = paths_.back().samples_before + paths_.back().clip->count();

@@ -42,7 +42,6 @@ class Crowd {
     void add(const SceneClip& clip, const Agent& agent, bool goes_on = false);
 
     const std::filesystem::path& file() const { return file_; }
-    const std::deque<CrowdPath>& paths() const { return paths_; }
     const CrowdPath& path(int index) const { return paths_[static_cast<std::size_t>(index)]; }
     const CrowdWalker& agent_of(int path) const { return agents_[static_cast<std::size_t>(this->path(path).agent)]; }
     /// The paths of a path's agent: the first, and the one behind the last.

@@ -123,6 +123,11 @@ struct Scene {
     std::shared_ptr<const CrowdRun> crowd{};     ///< that plays the graph's moves; null: none
 };
 
+/// Whether two agents are on different floors, which both are known.
+inline bool are_apart(const Agent& a, const Agent& b) {
+    return !a.floor.empty() && !b.floor.empty() && a.floor != b.floor;
+}
+
 /// Names of floors as numbers from 1 on, 0 where nobody says; empty where nobody says of any.
 std::vector<int> numbered_floors(std::span<const std::string> floors);
 /// Those of the agents.

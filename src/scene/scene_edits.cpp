@@ -265,8 +265,7 @@ void remove_agent(Scene& scene, int agent) {
 
 std::size_t add_query(Scene& scene, int a, int b) {
     if (a == b) throw std::invalid_argument("an agent cannot be queried against itself");
-    const std::string &floor_a = agent_at(scene, a).floor, &floor_b = agent_at(scene, b).floor;
-    if (!floor_a.empty() && !floor_b.empty() && floor_a != floor_b)
+    if (are_apart(agent_at(scene, a), agent_at(scene, b)))
         throw std::invalid_argument("the two are on different floors, where they never meet");
     if (scene.queries.empty() && scene.agents.size() > 1) make_queries_explicit(scene);
     const auto side = [&](int agent) {

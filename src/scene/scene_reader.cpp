@@ -527,11 +527,11 @@ class SceneReader {
 
     void check_floors(const JsonPlace& place, const SceneQuery& query) const {
         if (query.a.agent < 0 || query.b.agent < 0) return;
-        const std::string& floor_a = scene_.agents[static_cast<std::size_t>(query.a.agent)].floor;
-        const std::string& floor_b = scene_.agents[static_cast<std::size_t>(query.b.agent)].floor;
-        if (floor_a.empty() || floor_b.empty() || floor_a == floor_b) return;
-        place.fail(in_quotes(query.a.name) + " is on floor " + in_quotes(floor_a) + " and " + in_quotes(query.b.name) +
-                   " on floor " + in_quotes(floor_b) + ": they never meet; remove the query");
+        const Agent& a = scene_.agents[static_cast<std::size_t>(query.a.agent)];
+        const Agent& b = scene_.agents[static_cast<std::size_t>(query.b.agent)];
+        if (!are_apart(a, b)) return;
+        place.fail(in_quotes(query.a.name) + " is on floor " + in_quotes(a.floor) + " and " + in_quotes(query.b.name) +
+                   " on floor " + in_quotes(b.floor) + ": they never meet; remove the query");
     }
 
     /// Of a recording that stopped, `events` says how many there were.

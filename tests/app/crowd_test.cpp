@@ -6,6 +6,7 @@
 #include <base/error.h>
 #include <base/file.h>
 #include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 #include <crowd/simulation/simulate.h>
 #include <mobb/predicate.h>
 #include <mobb_tracks/crowds.h>
@@ -379,7 +380,7 @@ TEST_F(CrowdTest, ConflictsAreCountedAsTheCommandCountsThem) {
     for (const Agent& who : people.agents) person_of.push_back(who.run_agent);
     mobb::ConflictSearch direct;
     direct.direct = true;
-    const std::vector<mobb::PeopleConflict> other = mobb::test::all_of({placed_clips(people), person_of, direct});
+    const std::vector<mobb::PeopleConflict> other = mobb::test::all_of({Crowd(people).placed(), person_of, direct});
     ASSERT_EQ(session.crowds.conflicts()->size(), other.size());
     std::set<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < other.size(); ++i) {

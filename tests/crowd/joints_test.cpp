@@ -2,6 +2,7 @@
 #include "walker_moves.h"
 
 #include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 #include <crowd/simulation/choice.h>
 #include <crowd/simulation/simulate.h>
 #include <mobb/placed_chain.h>
@@ -156,7 +157,7 @@ std::set<std::pair<int, int>> pairs_of(const Scene& people, bool direct) {
     mobb::ConflictSearch search;
     search.direct = direct;
     std::set<std::pair<int, int>> out;
-    for (const mobb::PeopleConflict& found : mobb::test::all_of({placed_clips(people), person_of, search}))
+    for (const mobb::PeopleConflict& found : mobb::test::all_of({Crowd(people).placed(), person_of, search}))
         out.emplace(found.a, found.b);
     return out;
 }

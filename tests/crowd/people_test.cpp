@@ -3,6 +3,7 @@
 
 #include <base/error.h>
 #include <conflicts/conflicts.h>
+#include <conflicts/crowd.h>
 #include <crowd/simulation/simulate.h>
 #include <mobb_tracks/crowds.h>
 #include <scene/crowd_run.h>
@@ -62,7 +63,7 @@ TEST(People, CollideWhereTheirPlaysDo) {
     }
     ASSERT_FALSE(expected.empty());
     const Scene people = scene_of_people(run);
-    const std::vector<mobb::PlacedClip> crowd = placed_clips(people);
+    const std::vector<mobb::PlacedClip> crowd = Crowd(people).placed();
     std::set<std::pair<int, int>> found;
     std::vector<int> person_of(crowd.size());
     std::iota(person_of.begin(), person_of.end(), 0);

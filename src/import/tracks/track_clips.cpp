@@ -5,6 +5,7 @@
 #include <import/tracks/track_bodies.h>
 #include <import/tracks/track_steps.h>
 #include <import/tracks/tracks.h>
+#include <mobb/query.h>
 
 #include <algorithm>
 #include <cmath>
@@ -301,8 +302,8 @@ class TrackClipMaker {
     std::vector<std::pair<double, double>> invented(const TrackPart& part, const TrackGrid& grid, double begin,
                                                     const mobb::Clip& clip) const {
         const double duration = clip.duration();
-        std::vector<std::pair<double, double>> out;
-        if (file_.alone) return out;
+        if (file_.alone) return {};
+        std::vector<mobb::Interval> found;
         const auto time = [&](std::size_t i) {
             return clock_.seconds(part.points[i].frame - part.points.front().frame) - begin;
         };
@@ -314,25 +315,17 @@ class TrackClipMaker {
             const double length = std::hypot(b.x - a.x, b.y - a.y) * common_.unit;
             if (!filled && !(length > part.fastest * (time(i) - time(i - 1)))) continue;
             const double from = std::max(time(i - 1), 0.0), to = std::min(time(i), duration);
-            if (from < to) out.emplace_back(from, to);
+            if (from < to) found.push_back({from, to});
         }
         // What is between samples may begin before a step that is too fast, and end behind it.
         const std::span<const mobb::Disk> samples = clip.samples();
         for (std::size_t i = 1; i < samples.size(); ++i) {
             const double length = std::hypot(samples[i].x - samples[i - 1].x, samples[i].y - samples[i - 1].y);
             const auto at = static_cast<double>(i);
-            if (length > part.fastest * clip.dt()) out.emplace_back((at - 1) * clip.dt(), at * clip.dt());
+            if (length > part.fastest * clip.dt()) found.push_back({(at - 1) * clip.dt(), at * clip.dt()});
         }
-        std::ranges::sort(out);
-        std::size_t kept = 0;
-        for (std::size_t i = 1; i < out.size(); ++i) {
-            if (out[kept].second + mobb::kMinOverlap >= out[i].first) {
-                out[kept].second = std::max(out[kept].second, out[i].second);
-            } else {
-                out[++kept] = out[i];
-            }
-        }
-        out.resize(std::min(out.size(), kept + 1));
+        std::vector<std::pair<double, double>> out;
+        for (const mobb::Interval& one : mobb::joined(std::move(found))) out.emplace_back(one.t0, one.t1);
         return out;
     }
 
