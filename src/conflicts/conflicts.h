@@ -45,7 +45,6 @@ std::string sentence(const SceneConflict& conflict);
 /// The most that are kept at once, some 600 bytes each.
 inline constexpr std::size_t kMostSceneConflicts = 1'000'000;
 
-
 /// For mobb::ConflictSearch::spend: throws InputError where that is more than the budget (base/budget.h).
 std::function<void(std::size_t bytes)> spend_on_conflicts();
 
