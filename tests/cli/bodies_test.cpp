@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -173,14 +174,14 @@ TEST(BodiesCommand, EncountersAreTheLeastOverMembers) {
     const json whole = json_of(with({"conflicts", file}, options));
     const json apart = json_of(with({"conflicts", folder.write("members.json", members.dump())}, options));
     ASSERT_EQ(whole["conflicts"].size(), 3u);
-    const auto agent_of = [](const json& name) {
-        return name.get<std::string>().substr(0, name.get<std::string>().find('.'));
+    const auto agent_of = [](const std::string& name) { return name.substr(0, name.find('.')); };
+    const auto agents_of = [&](const json& conflict) {
+        return std::set{agent_of(conflict["a"]), agent_of(conflict["b"])};
     };
     for (const json& conflict : whole["conflicts"]) {
         double clearance = 1e9, course = 1e9;
         for (const json& one : apart["conflicts"]) {
-            const auto a = agent_of(one["a"]), b = agent_of(one["b"]);
-            if (!((a == conflict["a"] && b == conflict["b"]) || (a == conflict["b"] && b == conflict["a"]))) continue;
+            if (agents_of(one) != agents_of(conflict)) continue;
             clearance = std::min(clearance, one["least_clearance"].get<double>());
             if (one["time_to_collision"].is_number()) course = std::min(course, one["time_to_collision"].get<double>());
         }
