@@ -31,6 +31,24 @@ Row row_over(double length, double width) {
     return {disks, radius(disks)};
 }
 
+glm::dvec2 way(const Clip& clip, std::size_t from, std::size_t to) {
+    const Disk &a = clip.samples()[from], &b = clip.samples()[to];
+    return {b.x - a.x, b.y - a.y};
+}
+
+bool is_move(const glm::dvec2& way) { return std::hypot(way.x, way.y) >= kLeastMove; }
+
+/// Whether the disks are the same when the body is turned by 180 degrees.
+bool is_same_backwards(std::span<const BodyDisk> body) {
+    constexpr double kSame = 1e-9;  // metres
+    return std::ranges::all_of(body, [&](const BodyDisk& disk) {
+        return std::ranges::any_of(body, [&](const BodyDisk& other) {
+            return std::abs(disk.forward + other.forward) <= kSame && std::abs(disk.left + other.left) <= kSame &&
+                   std::abs(disk.r - other.r) <= kSame;
+        });
+    });
+}
+
 }  // namespace
 
 std::vector<BodyDisk> rectangle_body(double length, double width) {
@@ -52,22 +70,27 @@ double body_reach(std::span<const BodyDisk> body) {
     return out;
 }
 
-std::vector<double> headings_of(const Clip& clip) {
-    const std::span<const Disk> samples = clip.samples();
-    const auto way = [&](std::size_t from, std::size_t to) {
-        return glm::dvec2(samples[to].x - samples[from].x, samples[to].y - samples[from].y);
-    };
-    std::vector<double> out(samples.size(), 0);
+bool has_direction(const Clip& clip) {
+    for (std::size_t i = 1; i < clip.samples().size(); ++i) {
+        if (is_move(way(clip, 0, i))) return true;
+    }
+    return false;
+}
+
+std::vector<double> headings_of(const Clip& clip, std::span<const BodyDisk> body) {
+    const bool may_reverse = !body.empty() && is_same_backwards(body);
+    std::vector<double> out(clip.samples().size(), 0);
     std::optional<double> heading;
     std::size_t from = 0;  // where the last move ended
-    for (std::size_t to = 1; to < samples.size(); ++to) {
-        const glm::dvec2 move = way(from, to);
-        if (std::hypot(move.x, move.y) < kLeastMove) continue;
-        const double next = std::atan2(move.y, move.x) * (180 / std::numbers::pi);
+    for (std::size_t to = 1; to < out.size(); ++to) {
+        const glm::dvec2 move = way(clip, from, to);
+        if (!is_move(move)) continue;
+        double next = std::atan2(move.y, move.x) * (180 / std::numbers::pi);
         const double before = heading.value_or(next);
+        if (may_reverse && std::abs(std::remainder(next - before, 360)) > 90) next = std::remainder(next + 180, 360);
         bool stands = true;
         for (; from < to; ++from) {
-            stands = stands && way(from, from + 1) == glm::dvec2(0, 0);
+            stands = stands && way(clip, from, from + 1) == glm::dvec2(0, 0);
             out[from] = stands ? before : next;
         }
         heading = next;

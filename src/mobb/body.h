@@ -29,10 +29,17 @@ double rectangle_excess(double length, double width);
 /// Metres: the radius of the disk around the clip's centre that all disks of a body are within.
 double body_reach(std::span<const BodyDisk> body);
 
+/// Whether a clip ever is 0.1 m or more from its first sample: less is taken for noise, and has no direction.
+bool has_direction(const Clip& clip);
+
 /// The direction of motion at each sample, degrees: that of the shortest way of at least 0.1 m, and less is taken for
 /// noise. Who stands keeps the direction it had; before it first moves it has the first one that it will have; who
-/// never moves so far has 0.
-std::vector<double> headings_of(const Clip& clip);
+/// never moves so far (has_direction) has 0.
+/// `body`: of whom. If its disks are the same when it is turned by 180 degrees (to 1e-9 m), it may as well drive
+/// backwards: it takes, of that direction and its opposite, the one that is nearer to the heading before. So who
+/// reverses does not turn round, and linear disks do not run through the centre. Other bodies, and no body, look where
+/// they go.
+std::vector<double> headings_of(const Clip& clip, std::span<const BodyDisk> body = {});
 
 /// The path of one disk of a body whose centre walks a clip: same times, same motion. So linear disks run on straight
 /// lines between their places at the samples. `headings`: degrees, one a sample. Throws std::invalid_argument, as Clip

@@ -31,7 +31,8 @@ std::string to_string(const Color& color) { return formatted("#%02X%02X%02X", co
 void make_members(SceneClip& clip) {
     clip.members.clear();
     if (clip.body.empty()) return;
-    const std::vector<double> headings = clip.headings.empty() ? mobb::headings_of(*clip.clip) : clip.headings;
+    const std::vector<double> headings =
+        clip.headings.empty() ? mobb::headings_of(*clip.clip, clip.body) : clip.headings;
     for (const mobb::BodyDisk& disk : clip.body)
         clip.members.push_back(std::make_shared<const mobb::Clip>(mobb::member_of(*clip.clip, headings, disk)));
 }

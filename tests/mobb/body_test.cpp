@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 namespace {
@@ -39,6 +40,33 @@ TEST(BodyTest, HeadingsAreKeptWhileStanding) {
     // Fine steps have the direction of some together.
     const std::vector<double> fine = headings_of(Clip(0.01, {{0, 0, 1}, {0.06, 0.001, 1}, {0.12, 0, 1}, {0.18, 0, 1}}));
     EXPECT_EQ(fine, (std::vector{0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(BodyTest, WhoIsTheSameBackwardsReversesWithoutTurning) {
+    // East, back west, then north-west: that is nearer to backwards than to forwards, as south-east.
+    const Clip clip(1, {{0, 0, 1}, {2, 0, 1}, {0, 0, 1}, {-2, 1, 1}, {-2, 1, 1}}, Motion::linear);
+    const std::vector<BodyDisk> truck = rectangle_body(12, 2.5);
+    const double slope = std::atan2(1, -2) * (180 / std::numbers::pi);
+    const std::vector<double> headings = headings_of(clip, truck), of_motion = headings_of(clip);
+    const std::vector<double> right{0, 0, slope + 180, slope + 180, slope + 180}, turned{0, 180, slope, slope, slope};
+    ASSERT_EQ(headings.size(), right.size());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        EXPECT_NEAR(std::remainder(headings[i] - right[i], 360), 0, 1e-12) << i;
+        EXPECT_NEAR(std::remainder(of_motion[i] - turned[i], 360), 0, 1e-12) << i;
+    }
+    // The row stays as long as it is all the way.
+    const Clip front = member_of(clip, headings, truck.back()), rear = member_of(clip, headings, truck.front());
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        const Disk &a = front.samples()[i], &b = rear.samples()[i];
+        EXPECT_NEAR(std::hypot(a.x - b.x, a.y - b.y), 2 * truck.back().forward, 1e-9);
+        EXPECT_GT(a.x, b.x) << "the same end is ahead";
+    }
+    // One whose front is told from its back turns round.
+    std::vector<BodyDisk> lorry = truck;
+    lorry.back().r /= 2;
+    EXPECT_EQ(headings_of(clip, lorry), of_motion);
+    EXPECT_TRUE(has_direction(clip));
+    EXPECT_FALSE(has_direction(Clip(1, {{0, 0, 1}, {0.05, 0, 1}, {-0.09, 0, 1}})));
 }
 
 TEST(BodyTest, MembersWalkBesideTheCentre) {
