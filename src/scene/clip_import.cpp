@@ -81,6 +81,7 @@ std::vector<ImportedClip> import_warped(const ImportFile& import, const ImportOp
         WarpedClip made = warped(*clip.clip, *clip.skeleton, *warp, options.radius.has_value());
         clip.clip = std::move(made.clip);
         clip.skeleton = std::move(made.skeleton);
+        clip.headings.clear();  // it moves otherwise now
     }
     return out;
 }
@@ -106,8 +107,8 @@ std::vector<ReimportedClip> reimport(const Scene& scene, const SourceFile& file,
                        {was.name, was.source, options, imported.clip, imported.facts, imported.skeleton, imported.start,
                         was.warp}});
         SceneClip& is = out.back().is;
-        is.own_body = was.own_body && !options.radius;
-        is.body = is.own_body ? was.body : imported.body;
+        if (options.radius) is.options.body.reset();
+        is.body = imported.body;
         is.headings = imported.headings;
         name_own_radius(is);
         at_place(file.path, "", [&] {
@@ -127,6 +128,7 @@ ReimportedClip with_motion(const Scene& scene, int clip, mobb::Motion motion) {
     made.is.digest.reset();
     made.is.facts.warnings.clear();
     warn_of_long_held_step(*made.is.clip, made.is.facts.warnings);
+    if (made.is.headings.empty()) warn_of_no_heading(*made.is.clip, made.is.body, made.is.facts.warnings);
     return made;
 }
 

@@ -53,7 +53,6 @@ struct SceneClip {
     /// Of inline samples of a capture: mobb::digest of what was captured; none: nobody says. See kDigest.
     std::optional<std::uint64_t> digest{};
     std::vector<mobb::BodyDisk> body{};  ///< of who is more than one disk: in place of the disks of the samples
-    bool own_body = false;               ///< the scene gives it, not the source
     std::vector<double> headings{};      ///< degrees, of a body, one a sample; empty: as it moves
     /// Of a body the path of each disk, see make_members: who plays the clip is where any of them is. Else empty.
     std::vector<mobb::ClipPtr> members{};
@@ -187,7 +186,8 @@ bool is_scene_file(const std::filesystem::path& file);
 
 /// Reads a scene, a capture, a clip file (a scene with its clips and no agents), or a file of tracks (a scene with an
 /// agent for each, which starts when the track does; global time 0 is the file's earliest point, whatever trim takes).
-/// `overrides` go over the import keys of every clip with a source; their motion goes over that of every clip.
+/// `overrides` go over the import keys of every clip with a source, their motion and radius over those of every clip; a
+/// radius is in place of a body.
 /// `progress` is told before each clip; a clip file is read in one go. `importer` reads a scene's sources, and knows
 /// them then. Throws InputError; all files are checked before it returns.
 Scene load_scene(const std::filesystem::path& file, const ImportOptions& overrides = {}, const Progress& progress = {},

@@ -147,7 +147,7 @@ mobb::Motion read_motion(const JsonPlace& clip) {
     return motion;
 }
 
-mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Motion>& instead) {
+mobb::ClipPtr read_samples(const JsonPlace& place) {
     const mobb::Motion motion = read_motion(place);
     const JsonPlace dt = place.require("dt");
     const double seconds = dt.number();
@@ -163,8 +163,7 @@ mobb::ClipPtr read_samples(const JsonPlace& place, const std::optional<mobb::Mot
                            sample[2].number(0, mobb::kMaxLength)});
     }
     // The samples are in range by now: what may be wrong is how long they last.
-    return dt.attempt(
-        [&] { return std::make_shared<const mobb::Clip>(seconds, std::move(samples), instead.value_or(motion)); });
+    return dt.attempt([&] { return std::make_shared<const mobb::Clip>(seconds, std::move(samples), motion); });
 }
 
 /// Finds a named thing, or names the nearest one.
@@ -302,37 +301,34 @@ class SceneReader {
             refuse_import_keys(place);
             if (const auto turn = place.find("turn"))
                 turn->fail("only a clip with a source is turned; turn the samples, and remove this");
-            clip.clip = read_samples(place, overrides_.motion);
-            if (const auto digest = place.find("digest")) check_digest(read_digest(*digest), place, clip);
+            clip.clip = read_samples(place);
+            if (const auto digest = place.find("digest")) check_digest(read_digest(*digest), clip);
+            override_samples(place, clip);
+            clip.body = read_body(place).value_or(std::vector<mobb::BodyDisk>());
+            if (const auto headings = place.find("headings")) clip.headings = read_headings(*headings, place, clip);
             warn_of_long_held_step(*clip.clip, clip.facts.warnings);
             warn_of_coarse_times(*clip.clip, 0, clip.facts.warnings);
+            if (clip.headings.empty()) warn_of_no_heading(*clip.clip, clip.body, clip.facts.warnings);
         } else {
             place.fail("a clip needs a source, or dt and samples");
         }
-        read_body(place, clip);
+        if (clip.body.empty()) return clip;
+        const JsonPlace body = place.find("body").value_or(place);
+        if (!bodies_.try_add(clip.body.size() * clip.clip->samples().size_bytes()))
+            body.fail("with this one the bodies of the scene take too much memory; leave disks out");
+        body.attempt([&] { make_members(clip); });
         return clip;
     }
 
-    /// What the scene says of a clip's body, over what its source does.
-    void read_body(const JsonPlace& place, SceneClip& clip) {
+    /// The disks that the scene gives a clip. A radius that is asked for is everyone's, and there is no body.
+    std::optional<std::vector<mobb::BodyDisk>> read_body(const JsonPlace& place) const {
         const auto body = place.find("body");
-        if (body) {
-            if (const auto radius = place.find("radius"))
-                radius->fail("a clip has a radius or a body, not both; remove one");
-            clip.body = read_disks(*body);
-            clip.own_body = true;
-        }
-        if (const auto headings = place.find("headings")) clip.headings = read_headings(*headings, place, clip);
-        // A radius that is asked for is everyone's.
-        if (overrides_.radius && clip.source) {
-            clip.body.clear();
-            clip.own_body = false;
-        }
-        if (clip.body.empty()) return;
-        if (!bodies_.try_add(clip.body.size() * clip.clip->samples().size_bytes()))
-            (body ? *body : place).fail("with this one the bodies of the scene take too much memory; leave disks out");
-        const auto make = [&] { make_members(clip); };
-        body ? body->attempt(make) : place.attempt(make);
+        if (!body) return std::nullopt;
+        if (const auto radius = place.find("radius"))
+            radius->fail("a clip has a radius or a body, not both; remove one");
+        std::optional disks = read_disks(*body);
+        if (overrides_.radius) disks.reset();
+        return disks;
     }
 
     static std::vector<mobb::BodyDisk> read_disks(const JsonPlace& place) {
@@ -349,7 +345,6 @@ class SceneReader {
     }
 
     static std::vector<double> read_headings(const JsonPlace& place, const JsonPlace& of, const SceneClip& clip) {
-        if (clip.source) place.fail("only samples have headings; a source has its own, so remove them");
         if (!of.find("body")) place.fail("they are those of a body; give a body, or remove them");
         place.require_size(clip.clip->count(), "degrees, one a sample");
         std::vector<double> out;
@@ -357,15 +352,27 @@ class SceneReader {
         return out;
     }
 
-    /// Of the samples with the motion that the file says.
-    static void check_digest(std::uint64_t said, const JsonPlace& place, SceneClip& clip) {
-        const mobb::Motion motion = read_motion(place);
-        const std::uint64_t is = mobb::digest(clip.clip->dt(), clip.clip->samples(), motion);
+    static void check_digest(std::uint64_t said, SceneClip& clip) {
+        const std::uint64_t is = mobb::digest(*clip.clip);
         if (is != said)
             clip.facts.warnings.push_back({"its samples are not those that were captured: their digest is " +
                                                digest_text(is) + ", and the file says " + digest_text(said),
                                            std::string(kDigest)});
-        if (clip.clip->motion() == motion) clip.digest = said;
+        clip.digest = said;
+    }
+
+    /// Of the options that go over the scene's a motion and a radius are for inline samples too.
+    void override_samples(const JsonPlace& place, SceneClip& clip) const {
+        const mobb::Clip& was = *clip.clip;
+        const mobb::Motion motion = overrides_.motion.value_or(was.motion());
+        if (!overrides_.radius && motion == was.motion()) return;
+        std::vector<mobb::Disk> samples(was.samples().begin(), was.samples().end());
+        if (overrides_.radius) {
+            const double metres = place.attempt([&] { return metres_of(*overrides_.radius, clip.name, ""); });
+            for (mobb::Disk& disk : samples) disk.r = metres;
+        }
+        clip.clip = std::make_shared<const mobb::Clip>(was.dt(), std::move(samples), motion);
+        clip.digest.reset();
     }
 
     static void read_turn(const JsonPlace& place, SceneClip& clip) {
@@ -418,7 +425,10 @@ class SceneReader {
         if (is_standard_input(source.string()))
             source.fail("standard input is not a source of a scene's clip; name a clip file");
         clip.source = source.string();
+        if (const auto headings = place.find("headings"))
+            headings->fail("only samples have headings; a source has its own, so remove them");
         clip.options = read_import_options(place);
+        clip.options.body = read_body(place);
         for (const std::string& key : applicable(clip.options, folder_ / *clip.source).left_out) {
             place.require(key).fail(does_not_apply(key, *clip.source) + "; leave it out");
         }

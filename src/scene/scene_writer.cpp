@@ -82,8 +82,8 @@ void write_warp(JsonWriter& out, const ClipWarp& warp, const PoseNames& poses) {
     out.end_object();
 }
 
-void write_body(JsonWriter& out, const SceneClip& clip) {
-    out.list("body", clip.body, [&](const mobb::BodyDisk& disk) { out.tuple(disk.forward, disk.left, disk.r); });
+void write_body(JsonWriter& out, const std::vector<mobb::BodyDisk>& body) {
+    out.list("body", body, [&](const mobb::BodyDisk& disk) { out.tuple(disk.forward, disk.left, disk.r); });
 }
 
 void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, bool inline_samples) {
@@ -99,14 +99,14 @@ void write_clip(JsonWriter& out, const SceneClip& clip, const PoseNames& poses, 
             out.key("turn");
             out.row("deg", clip.turn->deg, "seconds", clip.turn->seconds);
         }
-        if (clip.own_body) write_body(out, clip);
+        if (clip.options.body) write_body(out, *clip.options.body);
         out.end_object();
         return;
     }
     out.begin_object();
     out.members("dt", clip.clip->dt(), "motion", mobb::name(clip.clip->motion()));
     if (clip.digest) out.member("digest", digest_text(*clip.digest));
-    if (!clip.body.empty()) write_body(out, clip);
+    if (!clip.body.empty()) write_body(out, clip.body);
     if (!clip.headings.empty()) out.values("headings", clip.headings);
     out.list("samples", clip.clip->samples(), [&](const mobb::Disk& disk) { out.tuple(disk.x, disk.y, disk.r); });
     out.end_object();

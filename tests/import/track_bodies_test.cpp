@@ -55,6 +55,61 @@ TEST(TrackBodies, WhoStandsInThePartThatIsTakenKeepsItsHeading) {
     for (const double heading : car.headings) EXPECT_NEAR(heading, 90, 1e-9);
 }
 
+/// A vehicle of a size that drives by so many metres from second to second.
+std::string driven(std::initializer_list<int> steps, const std::string& columns = ",length,width",
+                   const std::string& cells = ",4.6,1.9") {
+    std::string text = "id,t,x,y" + columns + "\n";
+    int t = 0, x = 0;
+    text += "1,0,0,0" + cells + '\n';
+    for (const int step : steps)
+        text += "1," + std::to_string(++t) + ',' + std::to_string(x += step) + ",0" + cells + '\n';
+    return text;
+}
+
+TEST(TrackBodies, WhoReversesInThePartThatIsTakenDoesNotTurnRound) {
+    ImportOptions trimmed;
+    trimmed.trim = {2, 5};
+    const std::string there_and_back = driven({3, 3, 3, -3, -3, -3});
+    EXPECT_EQ(csv_clips(there_and_back, trimmed)[0].headings, (std::vector<double>{0, 0, 0, 0}));
+    // Of a body whose front is told from its back the direction counts.
+    trimmed.body = {{1, 0, 1}, {-1, 0, 0.5}};
+    const ImportedClip lorry = csv_clips(there_and_back, trimmed)[0];
+    EXPECT_EQ(lorry.headings, (std::vector<double>{0, 180, 180, 180}));
+    EXPECT_EQ(lorry.body, *trimmed.body) << "the body that is given goes over the columns";
+    // A heading of the file is its heading.
+    const std::string said = driven({3, -3}, ",length,width,heading", ",4.6,1.9,90");
+    EXPECT_EQ(csv_clips(said)[0].headings, (std::vector<double>{90, 90, 90}));
+}
+
+TEST(TrackBodies, WhoNeverMovesAndHasNoHeadingIsTold) {
+    const std::string words = "never moves and nobody says its heading: it lies along x";
+    EXPECT_TRUE(warns(csv_clips(driven({0, 0}))[0], words));
+    EXPECT_FALSE(warns(csv_clips(driven({0, 1}))[0], words));
+    EXPECT_FALSE(warns(csv_clips(driven({0, 0}, ",length,width,heading", ",4.6,1.9,90"))[0], words));
+    EXPECT_FALSE(warns(csv_clips(driven({0, 0}, ",r", ",1"))[0], words)) << "a disk is the same from all sides";
+    // It moved before the part that is taken.
+    ImportOptions trimmed;
+    trimmed.trim = {1, 2};
+    EXPECT_FALSE(warns(csv_clips(driven({1, 0}), trimmed)[0], words));
+    EXPECT_TRUE(warns(csv_clips(driven({0, 0}), trimmed)[0], words));
+}
+
+TEST(TrackBodies, ABodyThatIsGivenNeedsNoRadius) {
+    ImportOptions options;
+    options.body = {{1, 0, 0.5}, {-1, 0, 0.5}};
+    for (const char* const text : {"t,x,y\n0,0,0\n1,3,0\n", "id,t,x,y\n1,0,0,0\n1,1,3,0\n"}) {
+        const ImportedClip clip = csv_clips(text, options)[0];
+        EXPECT_EQ(clip.body, *options.body);
+        EXPECT_EQ(clip.clip->samples()[1].r, 1.5) << "around all of it";
+        EXPECT_TRUE(clip.facts.warnings.empty()) << said(clip.facts.warnings.front());
+    }
+    EXPECT_EQ(csv_clips("t,x,y,r\n0,0,0,2\n1,3,0,2\n", options)[0].clip->samples()[1].r, 2);
+    const ImportedClip headed = csv_clips("id,t,x,y,heading\n1,0,0,0,90\n1,1,3,0,90\n", options)[0];
+    EXPECT_EQ(headed.headings, (std::vector<double>{90, 90}));
+    options.radius = 0.25;
+    EXPECT_TRUE(csv_clips("t,x,y\n0,0,0\n1,3,0\n", options)[0].body.empty()) << "a radius is everyone's";
+}
+
 TEST(TrackBodies, HeadingsThatNobodyCanReadAreTold) {
     const ImportedClip car = csv_clips(two_rows("length,width,heading", "4.6,1.9,north"))[0];
     EXPECT_TRUE(warns(car, "2 rows have no heading that can be read"));

@@ -7,6 +7,7 @@
 #include <scene/clip_import.h>
 #include <scene/fitted_scene.h>
 #include <scene/scene_edits.h>
+#include <support/input_error.h>
 #include <support/temp_folder.h>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,75 @@ TEST(ClipBody, StaysWhenWritten) {
     radius.radius = 0.4;
     EXPECT_TRUE(parse_scene(text, "s.json", folder.path(), radius).clips[2].body.empty())
         << "a radius that is asked for is everyone's";
+}
+
+TEST(ClipBody, OfAPartLooksAsTheWholeSaysOfEverySource) {
+    const TempFolder folder;
+    // North for 0.5 s, then standing.
+    std::string alone = "t,x,y\n", ids = "id,t,x,y\n", motion;
+    for (int i = 0; i <= 60; ++i) {
+        const double t = i / 30.0, way = std::min(t, 0.5);
+        const std::string row = format_double(t) + ",0," + format_double(way) + '\n';
+        alone += row;
+        ids += "1," + row;
+        motion += "0 1 " + format_double(-way) + " 0 0 0\n";
+    }
+    folder.write("alone.csv", alone);
+    folder.write("ids.csv", ids);
+    folder.write("walk.bvh",
+                 "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition "
+                 "Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 0.5 0.2\n}\n}\nMOTION\nFrames: 61\n"
+                 "Frame Time: 0.0333333333333\n" +
+                     motion);
+    for (const std::string source : {"alone.csv", "ids.csv", "walk.bvh"}) {
+        const std::string clip = R"("source": ")" + source + R"(", "body": [[1, 0, 0.5], [-1, 0, 0.25]], "trim": )";
+        const auto front_of = [&](const std::string& trim) {
+            const Scene scene = parse_scene(R"({"clips": {"c": {)" + clip + trim + "}}}", "s.json", folder.path());
+            const mobb::Disk disk = scene.clips[0].members.at(0)->samples().back();
+            return glm::dvec2(disk.x, disk.y);
+        };
+        EXPECT_NEAR(front_of("[1, 2]").x, 0, 1e-6) << source;
+        EXPECT_NEAR(front_of("[1, 2]").y, 1.5, 1e-6) << source;
+        EXPECT_NEAR(front_of("[0, 2]").y, 1.5, 1e-6) << source;
+        EXPECT_NEAR(front_of(R"([1, 2], "origin": "start")").y, 1, 1e-6) << source;
+    }
+}
+
+TEST(ClipBody, TheSameBackwardsReversesWithoutFolding) {
+    const Scene scene = parse_scene(R"({"clips": {"c": {"dt": 1, "motion": "linear", "body": [[5, 0, 1], [-5, 0, 1]],
+        "samples": [[0,0,6],[2,0,6],[0,0,6]]}}})",
+                                    "s.json", "");
+    for (const mobb::Disk& disk : scene.clips[0].members[0]->samples()) EXPECT_GT(disk.x, 4);
+    for (const mobb::Disk& disk : scene.clips[0].members[1]->samples()) EXPECT_LT(disk.x, -2);
+}
+
+TEST(ClipBody, WhoseHeadingNobodyTellsIsWarnedOf) {
+    const auto warnings = [](const std::string& rest) {
+        return parse_scene(R"({"clips": {"c": {"dt": 1, "samples": [[0,0,1],[0,0,1]])" + rest + "}}}", "s.json", "")
+            .clips[0]
+            .facts.warnings;
+    };
+    ASSERT_EQ(warnings(R"(, "body": [[0.5, 0, 1], [-0.5, 0, 1]])").size(), 1u);
+    EXPECT_NE(warnings(R"(, "body": [[0.5, 0, 1]])").front().text.find("it lies along x; give"), std::string::npos);
+    EXPECT_TRUE(warnings("").empty());
+    EXPECT_TRUE(warnings(R"(, "body": [[0, 0, 1]])").empty()) << "it looks the same from all sides";
+    EXPECT_TRUE(warnings(R"(, "body": [[0.5, 0, 1]], "headings": [90, 90])").empty());
+}
+
+TEST(ClipBody, ARadiusThatIsAskedForIsThatOfSamplesToo) {
+    ImportOptions radius;
+    radius.radius = 0.25;
+    const std::string text = R"({"clips": {"car": )" + kCar + R"(, "walk": {"dt": 1, "samples": [[0,0,1],[1,0,1]]}}})";
+    const Scene scene = parse_scene(text, "s.json", "", radius);
+    for (const SceneClip& clip : scene.clips) {
+        EXPECT_TRUE(clip.body.empty() && clip.members.empty());
+        for (const mobb::Disk& disk : clip.clip->samples()) EXPECT_EQ(disk.r, 0.25);
+    }
+    EXPECT_EQ(scene.clips[0].clip->motion(), mobb::Motion::linear);
+    radius.radius = RadiusColumn{"width"};
+    EXPECT_NE(
+        input_error([&] { parse_scene(text, "s.json", "", radius); }).find("/clips/car: radius 'width' names a column"),
+        std::string::npos);
 }
 
 TEST(ClipBody, IsRefusedInOneLine) {

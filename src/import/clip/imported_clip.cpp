@@ -2,6 +2,7 @@
 #include <import/clip/column_choice.h>
 #include <import/clip/imported_clip.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -60,6 +61,15 @@ std::string said(const ImportWarning& warning) {
     if (warning.samples > 0) details = counted(warning.samples, "sample", "samples");
     if (warning.line > 0) details += (details.empty() ? "" : ", ") + at_line(warning.line);
     return warning.text + (details.empty() ? "" : " (" + details + ")");
+}
+
+void warn_of_no_heading(const mobb::Clip& whole, std::span<const mobb::BodyDisk> body,
+                        std::vector<ImportWarning>& warnings) {
+    const auto is_centred = [](const mobb::BodyDisk& disk) { return disk.forward == 0 && disk.left == 0; };
+    if (std::ranges::all_of(body, is_centred) || mobb::has_direction(whole)) return;
+    warnings.push_back(
+        {"its body never moves and nobody says its heading: it lies along x; give the file a column heading, or the "
+         "samples of a scene headings"});
 }
 
 }  // namespace mobbscope

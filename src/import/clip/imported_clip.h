@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,6 +42,9 @@ struct ImportOptions {
     std::optional<mobb::Motion> motion{};
     /// Whether tracks stay whole that jump, or pause, as nobody does; default no.
     std::optional<bool> keep_jumps{};
+    /// The disks of whoever walks, in place of what the file says of sizes, unless there is a radius. A scene's clip
+    /// alone has them (its key `body`), so they stand in no list of options.
+    std::optional<std::vector<mobb::BodyDisk>> body{};
 
     friend bool operator==(const ImportOptions&, const ImportOptions&) = default;
 };
@@ -67,6 +71,11 @@ struct ImportWarning {
 
 /// The whole warning: "there are gaps, which are filled linearly (3 samples, line 12)".
 std::string said(const ImportWarning& warning);
+
+/// Adds a warning where a body is not the same from all sides, and never moves: then no motion tells where it looks.
+/// `whole`: all of its path.
+void warn_of_no_heading(const mobb::Clip& whole, std::span<const mobb::BodyDisk> body,
+                        std::vector<ImportWarning>& warnings);
 
 /// What the file said, before sampling.
 struct SourceFacts {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 namespace mobbscope {
@@ -109,6 +110,10 @@ mobb::Rotation put_at_origin(std::vector<mobb::Disk>& samples, Origin origin) {
         return turn;
     }
     return {};
+}
+
+void turn_headings(std::vector<double>& headings, const mobb::Rotation& turn) {
+    for (double& heading : headings) heading += std::atan2(turn.s, turn.c) * (180 / std::numbers::pi);
 }
 
 }  // namespace mobbscope

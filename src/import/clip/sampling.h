@@ -113,4 +113,7 @@ mobb::Disk mix(const mobb::Disk& a, const mobb::Disk& b, double share);
 /// it was turned.
 mobb::Rotation put_at_origin(std::vector<mobb::Disk>& samples, Origin origin);
 
+/// Turns headings, degrees, with their path.
+void turn_headings(std::vector<double>& headings, const mobb::Rotation& turn);
+
 }  // namespace mobbscope

@@ -134,9 +134,9 @@ class MotionImport {
     /// `poses_left`: of joints, for this clip and those after it; `made`: of this file.
     ImportedClip make(double& poses_left, MadeSamples& made) {
         const MotionTimes& times = motion_.times();
-        const SampleGrid grid = grid_of(times);
+        const SampleGrid grid = grid_of(times), all = has_body() ? whole_around(grid) : grid;
         const std::size_t stored = times.frames_only ? static_cast<std::size_t>(times.frames) : 0;
-        const std::size_t frames = std::max(grid.count, stored);
+        const std::size_t frames = std::max(all.count, stored);
         const double poses = static_cast<double>(frames) * static_cast<double>(motion_.posed());
         if (poses > kMaxJointPoses) {
             throw std::invalid_argument("needs " + std::to_string(motion_.posed()) +
@@ -170,12 +170,19 @@ class MotionImport {
         if (!options_.unit && !file_.unit_doubt.empty()) facts.warnings.push_back({file_.unit_doubt, "unit"});
 
         auto skeleton = std::make_shared<Skeleton>();
-        std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, *skeleton);
+        std::vector<mobb::Disk> samples = sample(grid, root, facts.unit, skeleton.get());
         if (options_.radius) {
             const double radius = metres_of(*options_.radius, "", "");
             for (mobb::Disk& disk : samples) disk.r = radius;
         }
+        if (has_body()) {
+            out.body = *options_.body;
+            const mobb::Clip whole(1, options_.trim ? sample(all, root, facts.unit, nullptr) : samples);
+            warn_of_no_heading(whole, out.body, facts.warnings);
+            if (options_.trim) out.headings = headings_in(grid, all, whole);
+        }
         const mobb::Rotation turn = put_at_origin(samples, options_.origin.value_or(Origin::keep));
+        turn_headings(out.headings, turn);
         for (glm::vec3& p : skeleton->positions) {
             const glm::dvec2 turned = turn({p.x, p.y});
             p = {turned.x, turned.y, p.z};
@@ -283,16 +290,16 @@ class MotionImport {
         }
     }
 
-    /// The disks in metres; fills the skeleton if it is not too much.
-    std::vector<mobb::Disk> sample(const SampleGrid& grid, int root, double unit, Skeleton& skeleton) {
+    /// The disks in metres; fills the skeleton, unless it is null, if it is not too much.
+    std::vector<mobb::Disk> sample(const SampleGrid& grid, int root, double unit, Skeleton* skeleton) {
         const std::span<const Joint> joints = motion_.joints();
-        const bool keep_skeleton = grid.count <= kMaxSkeletonPositions / joints.size();
+        const bool keep_skeleton = skeleton && grid.count <= kMaxSkeletonPositions / joints.size();
         if (keep_skeleton) {
-            skeleton.joints.assign(joints.begin(), joints.end());
-            skeleton.root = root;
-            skeleton.positions.reserve(grid.count * joints.size());
-            skeleton.rotations.reserve(grid.count * joints.size());
-            for (const glm::dquat& rotation : grounded_.rest()) skeleton.rest.emplace_back(rotation);
+            skeleton->joints.assign(joints.begin(), joints.end());
+            skeleton->root = root;
+            skeleton->positions.reserve(grid.count * joints.size());
+            skeleton->rotations.reserve(grid.count * joints.size());
+            for (const glm::dquat& rotation : grounded_.rest()) skeleton->rest.emplace_back(rotation);
         }
         DiskSampler sampler(grounded_, root, grid.step);
         PosedDisk posed;
@@ -303,10 +310,26 @@ class MotionImport {
             samples.push_back({posed.disk.x * unit, posed.disk.y * unit, posed.disk.r * unit});
             if (!keep_skeleton) continue;
             const glm::dvec3 centre{posed.disk.x, posed.disk.y, 0};
-            for (const glm::dvec3& p : posed.positions) skeleton.positions.emplace_back((p - centre) * unit);
-            for (const glm::dquat& rotation : posed.rotations) skeleton.rotations.emplace_back(rotation);
+            for (const glm::dvec3& p : posed.positions) skeleton->positions.emplace_back((p - centre) * unit);
+            for (const glm::dquat& rotation : posed.rotations) skeleton->rotations.emplace_back(rotation);
         }
         return samples;
+    }
+
+    bool has_body() const { return options_.body && !options_.radius; }
+
+    /// All times of the motion of which a grid is a part.
+    SampleGrid whole_around(const SampleGrid& part) const {
+        const MotionTimes& times = motion_.times();
+        const double before = sample_count(times.first, part.begin, part.step) - 1;
+        return sample_grid(part.begin - before * part.step, times.last, std::nullopt, part.step, kMaxMotionSamples);
+    }
+
+    /// Of a body in a part of a motion: ImportedClip::headings, as the whole motion tells them.
+    std::vector<double> headings_in(const SampleGrid& part, const SampleGrid& all, const mobb::Clip& whole) const {
+        const std::vector<double> headings = mobb::headings_of(whole, *options_.body);
+        const auto first = headings.begin() + std::lround((part.begin - all.begin) / part.step);
+        return {first, first + static_cast<std::ptrdiff_t>(part.count)};
     }
 
     const MotionFile& file_;

@@ -233,7 +233,7 @@ void TableColumns::settle_bodies() {
     };
     leave(Column::length, !has_sizes);
     leave(Column::width, !has_sizes);
-    leave(Column::heading, !has_sizes && !rows_[Column::label]);
+    leave(Column::heading, !has_sizes && !rows_[Column::label] && !options.body);
     if (rows_[Column::heading]) rows_.heading_column = "the column " + column_words(Column::heading);
     rows_.guesses_angles = rows_.guesses_angles && rows_[Column::heading];
     leave(Column::floor, !rows_[Column::id]);

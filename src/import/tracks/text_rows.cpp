@@ -831,7 +831,8 @@ TrackFile parse_text_tracks(const Input& text, const std::string& file) {
 
 std::shared_ptr<TrackFile> TableFile::table(const ImportOptions& options, bool takes) const {
     const RadiusColumn* const radius = options.radius ? std::get_if<RadiusColumn>(&*options.radius) : nullptr;
-    const std::string choice = options.columns.value_or("") + '\n' + (radius ? radius->name : "");
+    const std::string choice =
+        options.columns.value_or("") + '\n' + (radius ? radius->name : "") + (options.body ? "\nbody" : "");
     const std::lock_guard lock(mutex_);
     if (!last_ || choice != last_choice_) {
         last_ = std::make_shared<TrackFile>(parse_csv(text_, file_, options));

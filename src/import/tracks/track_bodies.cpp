@@ -128,10 +128,15 @@ std::string body_remark(const TrackFile& file, double metres) {
            " are taken; give radius if that is wrong";
 }
 
-std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, double metres) {
+mobb::Clip whole_path(const Track& track, double metres) {
     std::vector<mobb::Disk> places;
     for (const TrackPoint& point : track.points) places.push_back({point.x * metres, point.y * metres, 0});
-    const std::vector<double> all = mobb::headings_of(mobb::Clip(1, std::move(places)));
+    return {1, std::move(places)};
+}
+
+std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, const mobb::Clip& whole,
+                                       std::span<const mobb::BodyDisk> body) {
+    const std::vector<double> all = mobb::headings_of(whole, body);
     std::vector<double> out;
     for (std::size_t i = 0, at = 0; i < points.size(); ++i) {
         while (at + 1 < all.size() && track.points[at].frame < points[i].frame) ++at;

@@ -21,11 +21,16 @@ TrackBody body_of(const TrackFile& file, const Track& track, double metres);
 /// What body_of takes, for a warning.
 std::string body_remark(const TrackFile& file, double metres);
 
-/// The direction of motion (mobb::headings_of) at points of a track, likewise in degrees, as all of the track tells it.
-std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, double metres);
+/// All of a track's points as the samples of a clip.
+mobb::Clip whole_path(const Track& track, double metres);
 
-/// Degrees at each point, without jumps from a whole turn to none; of points without one that of the point before, else
-/// of the next. Empty: no point has one.
+/// The headings of a body in motion (mobb::headings_of) at points of a track, as the whole of it tells them: degrees,
+/// without jumps from a whole turn to none.
+std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, const mobb::Clip& whole,
+                                       std::span<const mobb::BodyDisk> body);
+
+/// Those of the file likewise; of points without one that of the point before, else of the next. Empty: no point has
+/// one.
 std::vector<double> headings_at(const TrackFile& file, std::span<const TrackPoint> points);
 
 }  // namespace mobbscope

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -98,7 +97,7 @@ void check_columns(const TrackFile& table, const std::string& file, const Import
     const std::string header = at_line(table.header_line);
     if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
     // People have a usual radius.
-    if (!table.has_radius && !table.has_sizes && !options.radius && table.alone)
+    if (!table.has_radius && !table.has_sizes && !options.radius && !options.body && table.alone)
         throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
     if (!table.rate && !options.dt && !options.fps) {
         throw InputError(file, header,
@@ -171,9 +170,9 @@ class TrackClipMaker {
             common_.warnings.push_back({file.unit_assumption, "unit"});
             common_.guessed_from_height = file.guessed_height;
         }
-        const std::string remark = options_.radius   ? unused_radii(file, *options_.radius)
-                                   : file.has_radius ? ""
-                                                     : body_remark(file, common_.unit);
+        const std::string remark = options_.radius                    ? unused_radii(file, *options_.radius)
+                                   : file.has_radius || options_.body ? ""
+                                                                      : body_remark(file, common_.unit);
         if (!remark.empty()) common_.warnings.push_back({remark, "radius"});
         if (!storeys.remark.empty()) common_.warnings.push_back({storeys.remark});
         if (options.trim && options.trim->second > clock_.duration() + usual_step()) {
@@ -242,6 +241,8 @@ class TrackClipMaker {
         TrackBody body;
         if (options_.radius) {
             body.r = metres_of(*options_.radius, track.id, track.label);
+        } else if (options_.body) {
+            body = {mobb::body_reach(*options_.body), *options_.body};
         } else if (!file_.has_radius) {
             body = body_of(file_, track, common_.unit);
         }
@@ -252,28 +253,28 @@ class TrackClipMaker {
             return resampled || is_cut ? sampled(from, {begin, dt, std::size_t(last - first) + 1})
                                        : filled(from, grid.step, first, last);
         };
-        std::vector<mobb::Disk> samples;
+        std::vector<mobb::Disk> samples = samples_of(points);
         std::vector<double> headings;
         if (!body.disks.empty()) headings = headings_at(file_, points);
-        // Who stands in the part that is taken keeps the direction in which it came, or will go.
-        if (!body.disks.empty() && headings.empty() && (options_.trim || points.size() < track.points.size()))
-            headings = motion_headings_at(track, points, common_.unit);
-        if (headings.empty()) {
-            samples = samples_of(points);
-        } else {
-            // Radii of such a body are all the same: headings are sampled in their place.
+        if (!body.disks.empty() && headings.empty()) {
+            const mobb::Clip whole = whole_path(track, common_.unit);
+            warn_of_no_heading(whole, body.disks, facts.warnings);
+            // Who stands in the part that is taken keeps the direction in which it came, or will go.
+            if (options_.trim || points.size() < track.points.size())
+                headings = motion_headings_at(track, points, whole, body.disks);
+        }
+        if (!headings.empty()) {
+            // They are sampled in place of radii.
             std::vector<TrackPoint> turned(points.begin(), points.end());
             for (std::size_t i = 0; i < turned.size(); ++i) turned[i].r = headings[i];
-            samples = samples_of(turned);
             headings.clear();
-            for (const mobb::Disk& disk : samples) headings.push_back(disk.r);
+            for (const mobb::Disk& disk : samples_of(turned)) headings.push_back(disk.r);
         }
         for (mobb::Disk& disk : samples) {
             disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : body.r};
         }
         count_ += samples.size();
-        const mobb::Rotation turn = put_at_origin(samples, options_.origin.value_or(Origin::keep));
-        for (double& heading : headings) heading += std::atan2(turn.s, turn.c) * (180 / std::numbers::pi);
+        turn_headings(headings, put_at_origin(samples, options_.origin.value_or(Origin::keep)));
 
         ImportedClip out;
         out.body = std::move(body.disks);
