@@ -256,7 +256,7 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     std::optional<Scene> scene;
     std::optional<std::int64_t> unforced;
     if (arguments.fit.tree || !is_tracks(arguments.file)) {
-        Scene loaded = load(arguments.file, arguments.import_options, RadiusOf::every_clip);
+        Scene loaded = load(arguments.file, arguments.import_options);
         unforced = unforced_in(loaded);
         scene = crowd_in(std::move(loaded), arguments);
     }

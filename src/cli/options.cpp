@@ -43,12 +43,6 @@ std::pair<double, double> parse_trim(const std::string& text) {
     throw std::invalid_argument(in_quotes(text) + " is not a range; give two times in seconds, such as 0.5:3.2");
 }
 
-mobb::ClipPtr with_radius(const mobb::Clip& clip, double radius) {
-    std::vector<mobb::Disk> samples(clip.samples().begin(), clip.samples().end());
-    for (mobb::Disk& disk : samples) disk.r = radius;
-    return std::make_shared<const mobb::Clip>(clip.dt(), std::move(samples), clip.motion());
-}
-
 void print_warnings(const Scene& scene, const std::string& name) {
     ClipWarnings warnings;
     for (const SceneClip& clip : scene.clips) warnings.add(clip);
@@ -145,7 +139,8 @@ void add_import_options(Command& command, ImportOptions& options) {
             options.*field = parse(text);
             check(options);
         };
-        command.add_option(name, set, help, placeholder).group("Import (over the scene's, for clips with a source)");
+        command.add_option(name, set, help, placeholder)
+            .group("Import (over the scene's; of inline samples --motion, --radius alone)");
     };
     add("--fps", &ImportOptions::fps, parse_number,
         "Samples per second (30; trajectories: as stored); frames per second of a table with frame numbers", "F");
@@ -172,7 +167,7 @@ void add_import_options(Command& command, ImportOptions& options) {
         .add_flag(
             "--keep-jumps", [&options](bool keep) { options.keep_jumps = keep; },
             "Tracks stay whole where they jump, or pause, as nobody does")
-        .group("Import (over the scene's, for clips with a source)");
+        .group("Import (over the scene's; of inline samples --motion, --radius alone)");
     add("--id", &ImportOptions::id, as_it_is, "The track to take, of a file with several", "ID");
     add("--animation", &ImportOptions::animation, as_it_is, "Index or name of the animation", "A");
 }
@@ -270,29 +265,15 @@ Progress tell(const std::string& doing, const std::string& things, std::optional
     };
 }
 
-Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius) {
+Scene load(const std::filesystem::path& file, const ImportOptions& options) {
     if (quotes_step(file)) {
         throw InputError(file, "no such file; only the window and render take a step behind a file's name");
     }
     Scene scene = load_scene(file, options, tell("read", "clips"));
     const auto has_source = [](const SceneClip& clip) { return clip.source.has_value(); };
     ImportOptions for_sources = options;
-    if (radius == RadiusOf::every_clip && options.radius) {
-        for (SceneClip& clip : scene.clips) {
-            if (has_source(clip)) continue;
-            const double metres = at_place(file.string(), "clip " + in_quotes(clip.name),
-                                           [&] { return metres_of(*options.radius, clip.name, ""); });
-            clip.clip = with_radius(*clip.clip, metres);
-            clip.body.clear();
-            clip.own_body = false;
-            clip.headings.clear();
-            make_members(clip);
-            clip.digest.reset();
-            clip.facts.warnings.clear();
-            warn_of_long_held_step(*clip.clip, clip.facts.warnings);
-        }
-        for_sources.radius.reset();
-    }
+    // These two are for samples in a scene as well.
+    for_sources.radius.reset();
     for_sources.motion.reset();
     print_warnings(scene, shown_name(scene.file));
     if (for_sources != ImportOptions{} && std::none_of(scene.clips.begin(), scene.clips.end(), has_source)) {

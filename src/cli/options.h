@@ -136,14 +136,11 @@ class ClipWarnings {
     std::unordered_map<std::string, std::size_t> by_text_;  ///< indices of all_
 };
 
-/// Which clips the radius of the import options is for.
-enum class RadiusOf { imported_clips, every_clip };
-
 /// Tells how far the work is, after each pause: a person's is 2 s, a script's 8 s.
 Progress tell(const std::string& doing, const std::string& things, std::optional<std::chrono::milliseconds> pause = {});
 
 /// load_scene, with its warnings on standard error. Throws InputError.
-Scene load(const std::filesystem::path& file, const ImportOptions& options, RadiusOf radius = RadiusOf::imported_clips);
+Scene load(const std::filesystem::path& file, const ImportOptions& options);
 /// The same, or the clips of all files in a folder.
 Scene load_file_or_folder(const std::filesystem::path& path, const ImportOptions& options);
 

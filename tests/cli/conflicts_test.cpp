@@ -107,6 +107,11 @@ TEST(Conflicts, ARadiusIsForEveryClip) {
     EXPECT_EQ(run.err, "");
     EXPECT_EQ(json::parse(run.out)["radius"], 1);
     EXPECT_TRUE(json::parse(run.out)["conflicts"].empty());
+    // Queries are about the same disks.
+    EXPECT_EQ(json_of({"query", file})["results"][0]["collides"], true);
+    const Result query = run_program({"query", file, "--radius", "1", "--json"});
+    EXPECT_EQ(query.err, "");
+    EXPECT_EQ(json::parse(query.out)["results"][0]["collides"], false);
 }
 
 // Both come to cell (1, 0) at step 1; then they go on.

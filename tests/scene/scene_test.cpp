@@ -109,7 +109,7 @@ TEST(Scene, SourcesAreRelativeToTheSceneAndOverridesWin) {
     const Scene changed = load_scene(file, overrides);
     EXPECT_EQ(changed.clips[0].clip->samples()[0].r, 0.7);
     EXPECT_EQ(changed.clips[1].clip->samples()[0].r, 0.7);
-    EXPECT_EQ(changed.clips[2].clip->samples()[0].r, 0.1);
+    EXPECT_EQ(changed.clips[2].clip->samples()[0].r, 0.7) << "that of samples in the scene too";
     EXPECT_EQ(changed.clips[1].options.radius, Radius(0.2)) << "the file's own option stays what it is";
 }
 
