@@ -145,6 +145,11 @@ struct Findings {
         if (!strict_motion) seconds = conflicts.seconds();
     }
     const mobb::PlacedClip& clip(int path) const { return conflicts.clip(path); }
+    /// Those of a path's agent.
+    std::span<const mobb::PlacedClip> paths_beside(int path) const {
+        const auto [first, end] = crowd.paths_beside(path);
+        return {&clip(first), static_cast<std::size_t>(end - first)};
+    }
     /// Halfway between the two where they are closest.
     glm::dvec2 position(const mobb::Conflict& conflict) const {
         const mobb::Disk a = mobb::swept(clip(conflict.a), conflict.a_sample).at(conflict.time);
@@ -176,35 +181,6 @@ ListedSeconds listed_seconds(const mobb::MaybeSeconds& of) {
     return {std::nullopt, std::string(of.undefined)};
 }
 
-/// The lesser one; of two that are undefined the first.
-mobb::MaybeSeconds least(const mobb::MaybeSeconds& one, const mobb::MaybeSeconds& other) {
-    if (!other.undefined.empty()) return one;
-    return one.undefined.empty() && one.seconds <= other.seconds ? one : other;
-}
-
-/// Of two agents: of bodies the least over all pairs of members.
-void tell_times(const Findings& findings, const mobb::PeopleConflict& conflict, double within, ListedConflict& out) {
-    const mobb::Conflict& deepest = conflict.deepest;
-    const mobb::PlacedClip &clip_a = findings.clip(deepest.a), &clip_b = findings.clip(deepest.b);
-    mobb::MaybeSeconds course = mobb::time_to_collision(clip_a, clip_b, deepest, within);
-    mobb::MaybeSeconds encroachment = mobb::post_encroachment_time(clip_a, clip_b, deepest);
-    const auto [first_a, end_a] = findings.crowd.paths_beside(deepest.a);
-    const auto [first_b, end_b] = findings.crowd.paths_beside(deepest.b);
-    // Where they overlap both are 0 already.
-    for (int a = first_a; a < end_a && deepest.least_clearance >= 0; ++a) {
-        for (int b = first_b; b < end_b; ++b) {
-            if (a == deepest.a && b == deepest.b) continue;
-            const mobb::PlacedClip &one = findings.clip(a), &other = findings.clip(b);
-            const mobb::Conflict of_members = mobb::conflict_of(one, other, within);
-            if (!of_members.intervals.empty())
-                course = least(course, mobb::time_to_collision(one, other, of_members, within));
-            encroachment = least(encroachment, mobb::post_encroachment_time(one, other, of_members));
-        }
-    }
-    out.time_to_collision = listed_seconds(course);
-    out.post_encroachment = listed_seconds(encroachment);
-}
-
 /// `within`: of encounters whose figures are asked.
 ListedConflict listed_conflict(const Findings& findings, std::size_t index, std::optional<double> within) {
     const mobb::PeopleConflict conflict = findings.conflicts[index];
@@ -224,7 +200,11 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
                        std::nullopt,
                        std::nullopt};
     if (findings.of_plan(deepest)) out.plan = plan_conflicts(findings.clip(deepest.a), findings.clip(deepest.b));
-    if (within) tell_times(findings, conflict, *within, out);
+    if (!within) return out;
+    const mobb::Encounter encounter{findings.paths_beside(deepest.a), findings.paths_beside(deepest.b), *within,
+                                    conflict.intervals.front().t0, deepest.least_clearance};
+    out.time_to_collision = listed_seconds(mobb::time_to_collision(encounter));
+    out.post_encroachment = listed_seconds(mobb::post_encroachment_time(encounter));
     return out;
 }
 

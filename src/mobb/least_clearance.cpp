@@ -1,11 +1,10 @@
+#include <mobb/halves_search.h>
 #include <mobb/least_clearance.h>
 #include <mobb/separation.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace mobb {
 
@@ -28,7 +27,11 @@ class NearestSearch {
 
     std::optional<NearestPair> run(const std::optional<NearestPair>& near) {
         if (near) measure(near->a_sample, near->a_sample + 1, near->b_sample, near->b_sample + 1);
-        visit(0, 0, bound(0, 0));
+        const auto bound = [this](int a, int b) { return this->bound(a, b); };
+        const auto leaves = [this](const ClipDisks::Range& a, const ClipDisks::Range& b) {
+            measure(a.first, a.end, b.first, b.end);
+        };
+        HalvesSearch(disks_a_, disks_b_, bound, leaves, least_).run();
         return found_;
     }
 
@@ -41,24 +44,6 @@ class NearestSearch {
             return std::numeric_limits<double>::infinity();
         const glm::dvec2 between = to_a_(b.center) + offset_ - a.center;
         return std::sqrt(between.x * between.x + between.y * between.y) - a.radius - b.radius - slack_;
-    }
-
-    void visit(int ia, int ib, double least) {
-        if (least >= least_) return;
-        const ClipDisks::Range& a = disks_a_[ia];
-        const ClipDisks::Range& b = disks_b_[ib];
-        if (a.is_leaf() && b.is_leaf()) return measure(a.first, a.end, b.first, b.end);
-        // The longer of the two is halved, and the more promising half is looked at first.
-        const bool halve_a = b.is_leaf() || (!a.is_leaf() && a.end - a.first >= b.end - b.first);
-        struct Half {
-            int a, b;
-            double least;
-        };
-        std::array<Half, 2> halves{halve_a ? Half{ia + 1, ib, 0} : Half{ia, ib + 1, 0},
-                                   halve_a ? Half{a.second, ib, 0} : Half{ia, b.second, 0}};
-        for (Half& half : halves) half.least = bound(half.a, half.b);
-        if (halves[1].least < halves[0].least) std::swap(halves[0], halves[1]);
-        for (const Half& half : halves) visit(half.a, half.b, half.least);
     }
 
     void measure(int first_a, int end_a, int first_b, int end_b) {

@@ -1,12 +1,17 @@
+#include <mobb/predicate.h>
 #include <mobb/traversal.h>
 #include <mobb_tracks/encounter.h>
 #include <mobb_tracks/floor_paths.h>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace mobb {
 
@@ -14,7 +19,6 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kLongest = 1e6;  // seconds: who comes nearer so slowly does it by rounding
-constexpr std::int64_t kMostVisits = 1'000'000;
 constexpr std::string_view kNoWidth = "their disks have radius 0, and points do not collide";
 
 /// The least over [begin, end] of s, in seconds.
@@ -38,39 +42,97 @@ double least_time_to_collision(const Approach& approach, Approach::Range over) {
     return seconds <= kLongest ? seconds : kNever;
 }
 
-/// Whether all its disks are points.
-bool has_no_width(const PlacedClip& clip) {
-    return std::ranges::all_of(clip.clip().samples(), [](const Disk& disk) { return disk.r == 0; });
+/// Whether all their disks are points.
+bool have_no_width(std::span<const PlacedClip> paths) {
+    return std::ranges::all_of(paths, [](const PlacedClip& path) {
+        return std::ranges::all_of(path.clip().samples(), [](const Disk& disk) { return disk.r == 0; });
+    });
 }
+
+SweptDisk widened(SweptDisk disk, double by) {
+    disk.from.r += by;
+    disk.to.r += by;
+    return disk;
+}
+
+/// What the disks of a body do in a step, and bounds on it.
+class BodyStep {
+  public:
+    BodyStep(std::span<const PlacedClip> body, int step) {
+        for (const PlacedClip& path : body) {
+            const SweptDisk& of = disks.emplace_back(swept(path, step));
+            const glm::dvec2 way(of.to.x - of.from.x, of.to.y - of.from.y);
+            const double seconds = of.end - of.begin, widening = std::abs(of.to.r - of.from.r);
+            length_ = std::max(length_, glm::length(way));
+            radius_ = std::max({radius_, of.from.r, of.to.r});
+            widening_ = std::max(widening_, widening / seconds);
+            slowest_ = glm::min(slowest_, way / seconds);
+            fastest_ = glm::max(fastest_, way / seconds);
+        }
+    }
+
+    /// Metres per second: no disk of one comes nearer to one of the other by more.
+    friend double most_closing(const BodyStep& a, const BodyStep& b) {
+        return glm::length(glm::max(a.fastest_ - b.slowest_, b.fastest_ - a.slowest_)) + a.widening_ + b.widening_;
+    }
+    /// Metres from centre to centre at the begin of their steps, beyond which disks never come so near each other.
+    friend double reach(const BodyStep& a, const BodyStep& b, double near) {
+        constexpr double kSlack = 1e-6;  // metres: of rounding
+        return a.length_ + b.length_ + a.radius_ + b.radius_ + near + kSlack;
+    }
+
+    std::vector<SweptDisk> disks{};
+
+  private:
+    double length_ = 0, radius_ = 0, widening_ = 0;
+    glm::dvec2 slowest_{std::numeric_limits<double>::max()}, fastest_{std::numeric_limits<double>::lowest()};
+};
+
+/// Is told of the steps of two that share time.
+template <class OnSteps>
+struct StepObserver : ObserverBase {
+    const OnSteps& on_steps;
+    void sample_pair(int i, int j, double) { on_steps(i, j); }
+};
 
 }  // namespace
 
-MaybeSeconds time_to_collision(const PlacedClip& a, const PlacedClip& b, const Conflict& conflict, double within) {
-    if (!a.is_linear() || !b.is_linear()) return {.undefined = "a held path has no speed"};
-    const WidenedClip wide_a(a, within), wide_b(b, 0);
+MaybeSeconds time_to_collision(const Encounter& of) {
+    const auto runs = [](const PlacedClip& path) { return path.is_linear(); };
+    if (!std::ranges::all_of(of.a, runs) || !std::ranges::all_of(of.b, runs))
+        return {.undefined = "a held path has no speed"};
+    if (of.least_clearance < 0) return {0, ""};
     double least = kNever;
-    auto take = [&](int i, int j) {
-        const auto over = approach_of(wide_a, i, wide_b, j).overlap();
-        least = std::min(least, least_time_to_collision(approach_of(a, i, b, j), over));
-        return least == 0;
+    const auto take = [&](int i, int j) {
+        const BodyStep a(of.a, i), b(of.b, j);
+        // Who is farther away is not so near, or takes longer.
+        const double most = reach(a, b, std::min(of.within, most_closing(a, b) * std::min(least, kLongest)));
+        for (const SweptDisk& one : a.disks) {
+            for (const SweptDisk& other : b.disks) {
+                if (squared_distance(one.from, other.from) > most * most) continue;
+                const Approach approach(one, other);
+                const Approach wide(widened(one, of.within), other);
+                if (wide.collides()) least = std::min(least, least_time_to_collision(approach, wide.overlap()));
+            }
+        }
     };
-    NoObserver observer;
-    // Where the first interval begins nobody was so close before.
-    const double begin = conflict.intervals.front().t0;
-    const auto from = [begin](const PlacedClip& clip) { return first_ending_after(clip, 0, clip.count() - 1, begin); };
-    visit_sample_pairs(wide_a, from(a), a.count(), wide_b, from(b), b.count(), observer, take);
-    if (least == kNever && has_no_width(a) && has_no_width(b)) return {.undefined = kNoWidth};
-    if (least == kNever) return {.undefined = "they are on no course to collide"};
-    return {least, ""};
+    StepObserver<decltype(take)> steps{{}, take};
+    const auto first = [&](const PlacedClip& path) { return first_ending_after(path, 0, path.count() - 1, of.from); };
+    const PlacedClip &a = of.a.front(), &b = of.b.front();
+    auto go_on = [](int, int) { return false; };
+    visit_sample_pairs(a, first(a), a.count(), b, first(b), b.count(), steps, go_on);
+    if (least < kNever) return {least, ""};
+    if (have_no_width(of.a) && have_no_width(of.b)) return {.undefined = kNoWidth};
+    return {.undefined = "they are on no course to collide"};
 }
 
-MaybeSeconds post_encroachment_time(const PlacedClip& a, const PlacedClip& b, const Conflict& conflict) {
-    if (conflict.least_clearance < 0) return {0, ""};
-    if (has_no_width(a) && has_no_width(b)) return {.undefined = kNoWidth};
-    const FloorPaths paths = floor_paths(a, b, kMostVisits, true);
-    if (!paths.known) return {.undefined = "too many of their samples lie too near each other to tell"};
-    if (!paths.meeting) return {.undefined = "their paths share no place"};
-    return {std::max(0.0, paths.meeting->gap), ""};
+MaybeSeconds post_encroachment_time(const Encounter& of) {
+    if (of.least_clearance < 0) return {0, ""};
+    if (have_no_width(of.a) && have_no_width(of.b)) return {.undefined = kNoWidth};
+    const std::optional<double> gap = least_floor_gap(of.a, of.b);
+    if (!gap) return {.undefined = "too many of their samples lie too near each other to tell"};
+    if (*gap == kNever) return {.undefined = "their paths share no place"};
+    return {std::max(0.0, *gap), ""};
 }
 
 std::vector<std::vector<int>> contact_chains(std::size_t people, std::span<const std::pair<int, int>> contacts) {

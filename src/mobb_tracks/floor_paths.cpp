@@ -1,12 +1,15 @@
+#include <mobb/halves_search.h>
 #include <mobb/predicate.h>
 #include <mobb/query.h>
 #include <mobb_tracks/floor_paths.h>
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <span>
 #include <utility>
@@ -20,18 +23,51 @@ constexpr int kLeaf = 8;
 constexpr double kShortStep = 1e-3;  // of a range of lags
 constexpr int kNarrowings = 45;      // of a range of times: to 1e-9 of it by the golden section, 1e-13 by halves
 
-/// A range of samples and the rectangle that their disks lie in.
+/// The octagon with sides along x, y and their diagonals around disks: how far these reach along each.
+class Octagon {
+  public:
+    void cover(const Disk& disk) {
+        const Sides at{disk.x, disk.y, kDiagonal * (disk.x + disk.y), kDiagonal * (disk.x - disk.y)};
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            min_[i] = std::min(min_[i], at[i] - disk.r);
+            max_[i] = std::max(max_[i], at[i] + disk.r);
+        }
+    }
+    void cover(const Octagon& other) {
+        for (std::size_t i = 0; i < min_.size(); ++i) {
+            min_[i] = std::min(min_[i], other.min_[i]);
+            max_[i] = std::max(max_[i], other.max_[i]);
+        }
+    }
+
+    /// Lower bound on what disks of two are apart, 0 if the octagons overlap along all sides.
+    friend double apart(const Octagon& a, const Octagon& b) {
+        Sides gap;
+        for (std::size_t i = 0; i < gap.size(); ++i)
+            gap[i] = std::max({a.min_[i] - b.max_[i], b.min_[i] - a.max_[i], 0.0});
+        return std::max(std::sqrt(gap[0] * gap[0] + gap[1] * gap[1]), std::sqrt(gap[2] * gap[2] + gap[3] * gap[3]));
+    }
+
+  private:
+    using Sides = std::array<double, 4>;
+    static constexpr double kDiagonal = 0.70710678118654752;
+    static constexpr Sides all(double value) { return {value, value, value, value}; }
+
+    Sides min_ = all(std::numeric_limits<double>::max());
+    Sides max_ = all(std::numeric_limits<double>::lowest());
+};
+
+/// A range of samples and what their disks lie in.
 struct Range {
     int first = 0;
     int end = 0;
-    glm::dvec2 min{std::numeric_limits<double>::max()};
-    glm::dvec2 max{std::numeric_limits<double>::lowest()};
     int second = 0;  ///< index of the second half; the first half comes next; 0: none
+    Octagon around{};
 
     bool is_leaf() const { return second == 0; }
 };
 
-/// Halves of halves of a path, depth first. Boxes along the axes of the world: all that is asked is a bound.
+/// Halves of halves of a path, depth first.
 class Ranges {
   public:
     /// `leaf`: the most samples of a range that is not halved.
@@ -58,17 +94,13 @@ class Ranges {
             // One that runs to the next sample lies between the two.
             const int stop = clip_.is_linear() ? std::min(end + 1, clip_.count()) : end;
             const auto at = static_cast<std::size_t>(first);
-            for (const Disk& d : std::span(disks_).subspan(at, static_cast<std::size_t>(stop) - at)) {
-                range.min = {std::min(range.min.x, d.x - d.r), std::min(range.min.y, d.y - d.r)};
-                range.max = {std::max(range.max.x, d.x + d.r), std::max(range.max.y, d.y + d.r)};
-            }
+            for (const Disk& disk : std::span(disks_).subspan(at, static_cast<std::size_t>(stop) - at))
+                range.around.cover(disk);
         } else {
             const int middle = first + (end - first) / 2;
-            const Range one = (*this)[build(first, middle)];
+            range.around = (*this)[build(first, middle)].around;
             range.second = build(middle, end);
-            const Range& two = (*this)[range.second];
-            range.min = {std::min(one.min.x, two.min.x), std::min(one.min.y, two.min.y)};
-            range.max = {std::max(one.max.x, two.max.x), std::max(one.max.y, two.max.y)};
+            range.around.cover((*this)[range.second].around);
         }
         ranges_[index] = range;
         return static_cast<int>(index);
@@ -80,60 +112,31 @@ class Ranges {
     std::vector<Range> ranges_;
 };
 
-/// Lower bound on what disks of two ranges are apart, 0 if the rectangles overlap.
-double apart(const Range& a, const Range& b) {
-    const double x = std::max({a.min.x - b.max.x, b.min.x - a.max.x, 0.0});
-    const double y = std::max({a.min.y - b.max.y, b.min.y - a.max.y, 0.0});
-    return std::sqrt(x * x + y * y);
+/// Squared metres from a point to a segment.
+double squared_distance(const Disk& point, const Disk& from, const Disk& to) {
+    const glm::dvec2 along(to.x - from.x, to.y - from.y), away(point.x - from.x, point.y - from.y);
+    const double length = glm::dot(along, along);
+    const double share = length > 0 ? std::clamp(glm::dot(away, along) / length, 0.0, 1.0) : 0;
+    const glm::dvec2 aside = away - share * along;
+    return glm::dot(aside, aside);
 }
 
-/// The pair of samples with the least value, by branch and bound.
-template <class Bound, class Value>
-class Least {
-  public:
-    /// `value_of(i, j, least)`: of two samples, exactly where it is below `least`; else anything that is not.
-    Least(const Ranges& a, const Ranges& b, std::int64_t& visits, const Bound& bound, const Value& value_of)
-        : a_(a), b_(b), visits_(visits), bound_(bound), value_of_(value_of) {
-        visit(0, 0, bound_(a_[0], b_[0]));
-    }
+bool are_on_both_sides(const Disk& a, const Disk& b, const Disk& from, const Disk& to) {
+    const auto side = [&](const Disk& of) {
+        return (to.x - from.x) * (of.y - from.y) - (to.y - from.y) * (of.x - from.x);
+    };
+    return side(a) * side(b) < 0;
+}
 
-    double value = std::numeric_limits<double>::infinity();
-    int i = -1;
-    int j = -1;
-
-  private:
-    void visit(int ia, int ib, double least) {
-        if (least >= value || --visits_ < 0) return;
-        const Range& a = a_[ia];
-        const Range& b = b_[ib];
-        if (a.is_leaf() && b.is_leaf()) {
-            for (int p = a.first; p < a.end; ++p) {
-                for (int q = b.first; q < b.end; ++q) {
-                    const double found = value_of_(p, q, value);
-                    if (found < value) value = found, i = p, j = q;
-                }
-            }
-            return;
-        }
-        // The longer of the two is halved, and the more promising half is looked at first.
-        const bool halve_a = b.is_leaf() || (!a.is_leaf() && a.end - a.first >= b.end - b.first);
-        struct Half {
-            int a, b;
-            double least;
-        };
-        std::array<Half, 2> halves{halve_a ? Half{ia + 1, ib, 0} : Half{ia, ib + 1, 0},
-                                   halve_a ? Half{a.second, ib, 0} : Half{ia, b.second, 0}};
-        for (Half& half : halves) half.least = bound_(a_[half.a], b_[half.b]);
-        if (halves[1].least < halves[0].least) std::swap(halves[0], halves[1]);
-        for (const Half& half : halves) visit(half.a, half.b, half.least);
-    }
-
-    const Ranges& a_;
-    const Ranges& b_;
-    std::int64_t& visits_;
-    const Bound& bound_;
-    const Value& value_of_;
-};
+/// Whether the ways of two samples are so far apart that their disks are in no common place.
+bool are_far_apart(const SweptDisk& a, const SweptDisk& b) {
+    constexpr double kSlack = 1e-6;  // metres: who touches is measured
+    const double reach = std::max(a.from.r, a.to.r) + std::max(b.from.r, b.to.r) + kSlack;
+    const double squared = std::min({squared_distance(a.from, b.from, b.to), squared_distance(a.to, b.from, b.to),
+                                     squared_distance(b.from, a.from, a.to), squared_distance(b.to, a.from, a.to)});
+    if (squared <= reach * reach) return false;
+    return !are_on_both_sides(a.from, a.to, b.from, b.to) || !are_on_both_sides(b.from, b.to, a.from, a.to);
+}
 
 /// Two samples on the floor, whatever the time: with a lag, B is taken that much later than A.
 class LaggedPair {
@@ -198,64 +201,149 @@ class LaggedPair {
     double apart_ = 0;
 };
 
-}  // namespace
+constexpr double kNone = std::numeric_limits<double>::infinity();
 
-FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::int64_t most_visits,
-                       bool meeting_alone) {
-    const bool runs = clip_a.is_linear() || clip_b.is_linear();
-    const Ranges a(clip_a, runs ? 1 : kLeaf);
-    const Ranges b(clip_b, runs ? 1 : kLeaf);
-    std::int64_t visits = most_visits;
-    constexpr double kApart = std::numeric_limits<double>::infinity();
-    const auto gap = [](double begin_a, double end_a, double begin_b, double end_b) {
-        return std::max(begin_b - end_a, begin_a - end_b);
+/// Of two paths.
+class FloorSearch {
+  public:
+    /// Refers to the paths. They are halved down to the samples where any of them runs.
+    FloorSearch(const Ranges& a, const Ranges& b, bool runs, std::int64_t most_visits)
+        : a_(a), b_(b), runs_(runs), visits_(most_visits) {}
+
+    /// Whether what was asked for was not found in so many visits.
+    bool gave_up() const { return visits_ < 0; }
+
+    /// The meeting with the least gap, if one is less than this.
+    std::optional<FloorMeeting> meeting(double less_than) {
+        const auto bound = [this](const Range& a, const Range& b) {
+            if (apart(a.around, b.around) > 0) return kNone;
+            const double between = gap(a.first, a.end - 1, b.first, b.end - 1);
+            // In ranges that share time there may be samples that share any of it.
+            return between > 0 ? between : runs_ ? 0 : -kNone;
+        };
+        const auto found = least(less_than, bound, [this](int i, int j, double least) { return gap_of(i, j, least); });
+        if (!found || gave_up()) return std::nullopt;
+        // Samples that run may share time, and the one that begins later be there first.
+        LaggedPair pair(a_.swept(found->i), b_.swept(found->j));
+        pair.narrow();
+        const double lag = runs_ ? pair.lag() : 0;
+        const bool a_first = lag != 0 ? lag > 0 : a_.begin(found->i) < b_.begin(found->j);
+        return FloorMeeting{found->i, found->j, found->value, a_first};
+    }
+
+    /// Metres between two paths that do not meet.
+    double distance() {
+        const auto bound = [](const Range& a, const Range& b) { return apart(a.around, b.around); };
+        const auto distance = [this](int i, int j, double) {
+            if (runs_) return std::max(0.0, narrowed({a_.swept(i), b_.swept(j)}).apart());
+            --visits_;
+            const Disk &a = a_.disk(i), &b = b_.disk(j);
+            return std::max(0.0, std::sqrt(squared_distance(a, b)) - (a.r + b.r));
+        };
+        return least(kNone, bound, distance)->value;
+    }
+
+  private:
+    struct Found {
+        double value;
+        int i, j;
     };
-    const auto gap_bound = [&](const Range& ra, const Range& rb) {
-        if (apart(ra, rb) > 0) return kApart;
-        const double between = gap(a.begin(ra.first), a.end(ra.end - 1), b.begin(rb.first), b.end(rb.end - 1));
-        // In ranges that share time there may be samples that share any of it.
-        return between > 0 ? between : runs ? 0 : -kApart;
-    };
-    const auto narrowed = [&](LaggedPair pair) {
-        visits -= kRunningPair;
+
+    /// The two samples with the least value below one. `value_of(i, j, least)`: exactly where it is below `least`; else
+    /// anything that is not.
+    template <class Bound, class Value>
+    std::optional<Found> least(double below, const Bound& bound_of, const Value& value_of) {
+        std::optional<Found> found;
+        const auto bound = [&](int i, int j) { return --visits_ < 0 ? kNone : bound_of(a_[i], b_[j]); };
+        const auto leaves = [&](const Range& a, const Range& b) {
+            for (int i = a.first; i < a.end; ++i) {
+                for (int j = b.first; j < b.end; ++j) {
+                    const double value = value_of(i, j, below);
+                    if (value < below) found = {below = value, i, j};
+                }
+            }
+        };
+        HalvesSearch(a_, b_, bound, leaves, below).run();
+        return found;
+    }
+
+    /// Seconds from the end of the earlier samples to the beginning of the later ones.
+    double gap(int first_a, int last_a, int first_b, int last_b) const {
+        return std::max(b_.begin(first_b) - a_.end(last_a), a_.begin(first_a) - b_.end(last_b));
+    }
+
+    double gap_of(int i, int j, double least) {
+        if (!runs_) {
+            --visits_;
+            return collide(a_.disk(i), b_.disk(j)) ? gap(i, i, j, j) : kNone;
+        }
+        visits_ -= kLookedAtPair;
+        const SweptDisk a = a_.swept(i), b = b_.swept(j);
+        if (are_far_apart(a, b)) return kNone;
+        const LaggedPair pair(a, b);
+        if (!pair.may_overlap(least)) return kNone;
+        const LaggedPair nearest = narrowed(pair);
+        return nearest.apart() < 0 ? std::abs(nearest.lag()) : kNone;
+    }
+
+    LaggedPair narrowed(LaggedPair pair) {
+        visits_ -= kRunningPair;
         pair.narrow();
         return pair;
-    };
-    const auto gap_value = [&](int i, int j, double least) {
-        if (runs) {
-            visits -= kLookedAtPair;
-            const LaggedPair pair(a.swept(i), b.swept(j));
-            if (!pair.may_overlap(least)) return kApart;
-            const LaggedPair nearest = narrowed(pair);
-            return nearest.apart() < 0 ? std::abs(nearest.lag()) : kApart;
-        }
-        --visits;
-        return collide(a.disk(i), b.disk(j)) ? gap(a.begin(i), a.end(i), b.begin(j), b.end(j)) : kApart;
-    };
-    const Least meeting(a, b, visits, gap_bound, gap_value);
-    if (visits < 0) return {};
-    FloorPaths out;
-    out.known = true;
-    if (meeting.i >= 0) {
-        // Samples that run may share time, and the one that begins later be there first.
-        const double lag = runs ? narrowed({a.swept(meeting.i), b.swept(meeting.j)}).lag() : 0;
-        const bool a_first = lag != 0 ? lag > 0 : a.begin(meeting.i) < b.begin(meeting.j);
-        out.meeting = {meeting.i, meeting.j, meeting.value, a_first};
-        return out;
     }
-    if (meeting_alone) return out;
-    const auto distance_bound = [](const Range& ra, const Range& rb) { return apart(ra, rb); };
-    const auto distance = [&](int i, int j, double) {
-        if (runs) return std::max(0.0, narrowed({a.swept(i), b.swept(j)}).apart());
-        --visits;
-        const Disk& da = a.disk(i);
-        const Disk& db = b.disk(j);
-        return std::max(0.0, std::sqrt(squared_distance(da, db)) - (da.r + db.r));
-    };
-    const Least nearest(a, b, visits, distance_bound, distance);
-    if (visits < 0) return {};
-    out.apart = nearest.value;
+
+    const Ranges& a_;
+    const Ranges& b_;
+    bool runs_;
+    std::int64_t visits_;
+};
+
+/// Whether any of the paths runs, and so has to be halved down to its samples.
+bool any_runs(std::span<const PlacedClip> a, std::span<const PlacedClip> b) {
+    return std::ranges::any_of(a, &PlacedClip::is_linear) || std::ranges::any_of(b, &PlacedClip::is_linear);
+}
+
+}  // namespace
+
+FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::int64_t most_visits) {
+    const bool runs = any_runs({&clip_a, 1}, {&clip_b, 1});
+    const Ranges a(clip_a, runs ? 1 : kLeaf), b(clip_b, runs ? 1 : kLeaf);
+    FloorSearch search(a, b, runs, most_visits);
+    FloorPaths out;
+    out.meeting = search.meeting(kNone);
+    if (!out.meeting && !search.gave_up()) out.apart = search.distance();
+    if (search.gave_up()) return {};
+    out.known = true;
     return out;
+}
+
+std::optional<double> least_floor_gap(std::span<const PlacedClip> clips_a, std::span<const PlacedClip> clips_b,
+                                      std::int64_t most_visits) {
+    const bool runs = any_runs(clips_a, clips_b);
+    std::deque<Ranges> all_a, all_b;
+    for (const PlacedClip& clip : clips_a) all_a.emplace_back(clip, runs ? 1 : kLeaf);
+    for (const PlacedClip& clip : clips_b) all_b.emplace_back(clip, runs ? 1 : kLeaf);
+    struct Pair {
+        double squared;
+        const Ranges *a, *b;
+    };
+    std::vector<Pair> pairs;
+    for (const Ranges& a : all_a) {
+        for (const Ranges& b : all_b) pairs.push_back({squared_distance(a.disk(0), b.disk(0)), &a, &b});
+    }
+    // A small gap that is known early passes over most of the others: of who follows, those of the disks that are next
+    // to each other.
+    std::ranges::sort(pairs, {}, &Pair::squared);
+    double least = kNone;
+    bool gave_up = false;
+    for (const Pair& pair : pairs) {
+        FloorSearch search(*pair.a, *pair.b, runs, most_visits);
+        const std::optional<FloorMeeting> meeting = search.meeting(least);
+        if (meeting) least = meeting->gap;
+        if (least <= 0) return least;
+        gave_up = gave_up || search.gave_up();
+    }
+    return gave_up ? std::nullopt : std::optional(least);
 }
 
 }  // namespace mobb

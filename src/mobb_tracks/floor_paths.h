@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace mobb {
 
@@ -29,8 +30,12 @@ struct FloorPaths {
 inline constexpr std::int64_t kRunningPair = 250, kLookedAtPair = 8;
 
 /// Makes at most so many visits of a few nanoseconds each, one for two samples that stay or two ranges of samples.
-/// `meeting_alone`: FloorPaths::apart is not asked.
-FloorPaths floor_paths(const PlacedClip& a, const PlacedClip& b, std::int64_t most_visits = 1'000'000,
-                       bool meeting_alone = false);
+FloorPaths floor_paths(const PlacedClip& a, const PlacedClip& b, std::int64_t most_visits = 1'000'000);
+
+/// The least FloorMeeting::gap of any of A's paths and any of B's, or one that is at most 0: seconds; infinity if no
+/// two of them overlap on the floor. None: of two paths too many samples lie too near each other to tell. At most so
+/// many visits are made for two paths.
+std::optional<double> least_floor_gap(std::span<const PlacedClip> a, std::span<const PlacedClip> b,
+                                      std::int64_t most_visits = 1'000'000);
 
 }  // namespace mobb

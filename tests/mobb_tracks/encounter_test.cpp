@@ -1,4 +1,6 @@
 // Time to collision and post-encroachment time against a look at many moments, and chains of contact.
+#include <mobb/body.h>
+#include <mobb_tracks/conflict.h>
 #include <mobb_tracks/crowds.h>
 #include <mobb_tracks/encounter.h>
 
@@ -22,6 +24,12 @@ Clip walk_of(const std::vector<std::pair<double, double>>& points, Motion motion
     std::vector<Disk> samples;
     for (const auto& [x, y] : points) samples.push_back({x, y, 0.25});
     return {0.5, std::move(samples), motion};
+}
+
+/// Two of a path each.
+Encounter between(const PlacedClip& a, const PlacedClip& b) {
+    const Conflict near = conflict_of(a, b, kWithin);
+    return {{&a, 1}, {&b, 1}, kWithin, near.intervals.empty() ? 0 : near.intervals.front().t0, near.least_clearance};
 }
 
 /// How long until |d + s v| = r; infinity if never, or if it is over.
@@ -69,9 +77,8 @@ TEST(Encounters, TimeToCollisionIsThatOfManyMoments) {
         };
         const Clip one = walk_of(points()), other = walk_of(points());
         const PlacedClip a(one, {{0, 0}, 0, random.real(0, 1)}), b(other, {{0, 0}, 30, random.real(0, 1)});
-        const Conflict conflict = conflict_of(a, b, kWithin);
-        if (conflict.intervals.empty()) continue;
-        const MaybeSeconds found = time_to_collision(a, b, conflict, kWithin);
+        if (conflict_of(a, b, kWithin).intervals.empty()) continue;
+        const MaybeSeconds found = time_to_collision(between(a, b));
         const double expected = looked_at(a, b);
         if (found.undefined.empty()) {
             // Moments are up to 5 ms apart.
@@ -94,9 +101,8 @@ TEST(Encounters, PostEncroachmentTimeIsHowMuchLaterTheOtherComes) {
     const Clip one = walk_of({{0, 0}, {0.5, 0}, {1, 0}, {1.5, 0}, {2, 0}, {2.5, 0}, {3, 0}, {3.5, 0}, {4, 0}});
     const Clip other = walk_of({{2, -2}, {2, -1.5}, {2, -1}, {2, -0.5}, {2, 0}, {2, 0.5}});
     const PlacedClip a(one, {}), b(other, {{0, 0}, 0, 2});
-    const Conflict near = conflict_of(a, b, kWithin);
-    ASSERT_FALSE(near.intervals.empty());
-    ASSERT_GT(near.least_clearance, 0);
+    ASSERT_FALSE(conflict_of(a, b, kWithin).intervals.empty());
+    ASSERT_GT(between(a, b).least_clearance, 0);
     double least = std::numeric_limits<double>::infinity();
     for (double s = 0; s <= 4; s += 1e-3) {
         for (double t = 2; t <= 4.5; t += 1e-3) {
@@ -104,12 +110,12 @@ TEST(Encounters, PostEncroachmentTimeIsHowMuchLaterTheOtherComes) {
             if (x * x + y * y < 0.5 * 0.5) least = std::min(least, std::abs(t - s));
         }
     }
-    EXPECT_NEAR(post_encroachment_time(a, b, near).seconds, least, 5e-3);
+    EXPECT_NEAR(post_encroachment_time(between(a, b)).seconds, least, 5e-3);
 
     const PlacedClip through(other, {{0, 0}, 0, 0});
-    EXPECT_EQ(post_encroachment_time(a, through, conflict_of(a, through, kWithin)).seconds, 0) << "they collide";
+    EXPECT_EQ(post_encroachment_time(between(a, through)).seconds, 0) << "they collide";
     const PlacedClip beside(one, {{0, 1}, 0, 0});
-    const MaybeSeconds none = post_encroachment_time(a, beside, conflict_of(a, beside, kWithin));
+    const MaybeSeconds none = post_encroachment_time(between(a, beside));
     EXPECT_EQ(none.undefined, "their paths share no place");
     EXPECT_TRUE(std::isnan(none.seconds));
 }
@@ -127,12 +133,12 @@ TEST(Encounters, OfWhoFollowsFarApartInSamplesTheTimeIsFound) {
         const Clip first(kFrame, walk, Motion::linear), one(kFrame, sway, Motion::linear),
             other(kFrame, stand, Motion::linear);
         const PlacedClip a(first, {}), b(first, {{0, 0}, 0, kBehind});
-        EXPECT_NEAR(post_encroachment_time(a, b, conflict_of(a, b, kWithin)).seconds, kBehind - 0.5 / kSpeed, 1e-6);
+        EXPECT_NEAR(post_encroachment_time(between(a, b)).seconds, kBehind - 0.5 / kSpeed, 1e-6);
         // Two who stand together, and now and then lean to where the other has been.
         const PlacedClip p(one, {}), q(other, {});
-        Conflict apart = conflict_of(p, q, kWithin);
+        Encounter apart = between(p, q);
         apart.least_clearance = std::max(apart.least_clearance, 0.0);
-        const MaybeSeconds found = post_encroachment_time(p, q, apart);
+        const MaybeSeconds found = post_encroachment_time(apart);
         EXPECT_EQ(found.undefined, "") << seconds;
         EXPECT_LT(found.seconds, 1);
     }
@@ -141,18 +147,82 @@ TEST(Encounters, OfWhoFollowsFarApartInSamplesTheTimeIsFound) {
 TEST(Encounters, PointsCollideWithNobody) {
     const Clip walk(0.5, std::vector<Disk>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, Motion::linear);
     const PlacedClip a(walk, {}), b(walk, {{1, 1}, -90, 0});
-    const Conflict near = conflict_of(a, b, kWithin);
-    EXPECT_EQ(post_encroachment_time(a, b, near).undefined, "their disks have radius 0, and points do not collide");
-    EXPECT_EQ(time_to_collision(a, b, near, kWithin).undefined, "their disks have radius 0, and points do not collide");
+    EXPECT_EQ(post_encroachment_time(between(a, b)).undefined, "their disks have radius 0, and points do not collide");
+    EXPECT_EQ(time_to_collision(between(a, b)).undefined, "their disks have radius 0, and points do not collide");
 }
 
 TEST(Encounters, SayWhyThereIsNoTimeToCollision) {
     const Clip walk = walk_of({{0, 0}, {1, 0}, {2, 0}}), held = walk_of({{0, 1}, {1, 1}, {2, 1}}, Motion::held);
     const PlacedClip a(walk, {}), stays(held, {}), beside(walk, {{0, 1}, 0, 0});
-    EXPECT_EQ(time_to_collision(a, stays, conflict_of(a, stays, kWithin), kWithin).undefined,
-              "a held path has no speed");
-    EXPECT_EQ(time_to_collision(a, beside, conflict_of(a, beside, kWithin), kWithin).undefined,
-              "they are on no course to collide");
+    EXPECT_EQ(time_to_collision(between(a, stays)).undefined, "a held path has no speed");
+    EXPECT_EQ(time_to_collision(between(a, beside)).undefined, "they are on no course to collide");
+}
+
+/// The bodies of two people, as paths of their disks.
+struct Paths {
+    std::vector<Clip> clips;
+    std::vector<PlacedClip> placed;
+};
+
+/// A row of disks that drives straight on or turns, sways or stands.
+Paths body_on_its_way(Random& random, Motion motion) {
+    std::vector<Disk> samples{{random.real(-14, 14), random.real(-14, 14), 0}};
+    double heading = random.real(-180, 180);
+    const double turn = random.chance(0.5) ? 0 : random.real(-20, 20),
+                 step = random.chance(0.1) ? 0 : random.real(0.2, 2);
+    for (int i = random.integer(3, 25); i > 0; --i) {
+        heading += turn;
+        const glm::dvec2 next = Rotation::from_degrees(heading)({step, random.real(-0.1, 0.1)});
+        samples.push_back({samples.back().x + next.x, samples.back().y + next.y, 0});
+    }
+    const Clip centre(random.chance(0.5) ? 0.5 : random.real(0.2, 0.6), samples, motion);
+    const std::vector<BodyDisk> body = rectangle_body(random.real(1, 6), random.real(0.5, 1.5));
+    Paths out;
+    for (const BodyDisk& disk : body) out.clips.push_back(member_of(centre, headings_of(centre, body), disk));
+    const double start = random.real(0, 4);
+    for (const Clip& clip : out.clips) out.placed.emplace_back(clip, Placement{{0, 0}, 0, start});
+    return out;
+}
+
+TEST(Encounters, OfBodiesAreTheLeastOverAllPairsOfTheirDisks) {
+    Random random(11);
+    int courses = 0, gaps = 0, none = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const Motion motion = random.chance(0.2) ? Motion::held : Motion::linear;
+        const Paths one = body_on_its_way(random, motion), other = body_on_its_way(random, motion);
+        Encounter whole{one.placed, other.placed, kWithin, 1e9, 1e9};
+        double course = std::numeric_limits<double>::infinity(), gap = course;
+        const auto lower = [](double& least, const MaybeSeconds& of) {
+            if (of.undefined.empty()) least = std::min(least, of.seconds);
+        };
+        for (const PlacedClip& a : one.placed) {
+            for (const PlacedClip& b : other.placed) {
+                const Encounter members = between(a, b);
+                lower(gap, post_encroachment_time(members));
+                whole.least_clearance = std::min(whole.least_clearance, members.least_clearance);
+                if (conflict_of(a, b, kWithin).intervals.empty()) continue;
+                whole.from = std::min(whole.from, members.from);
+                lower(course, time_to_collision(members));
+            }
+        }
+        const MaybeSeconds found_gap = post_encroachment_time(whole);
+        EXPECT_EQ(found_gap.undefined.empty(), std::isfinite(gap)) << round << ' ' << found_gap.undefined;
+        if (std::isfinite(gap)) {
+            EXPECT_NEAR(found_gap.seconds, gap, 1e-9) << round;
+        }
+        if (whole.from == 1e9) continue;
+        const MaybeSeconds found_course = time_to_collision(whole);
+        EXPECT_EQ(found_course.undefined.empty(), std::isfinite(course)) << round << ' ' << found_course.undefined;
+        if (std::isfinite(course)) {
+            EXPECT_NEAR(found_course.seconds, course, 1e-9) << round;
+        }
+        courses += std::isfinite(course) && course > 0;
+        gaps += std::isfinite(gap) && gap > 0;
+        none += std::isinf(gap);
+    }
+    EXPECT_GT(courses, 15);
+    EXPECT_GT(gaps, 50);
+    EXPECT_GT(none, 30);
 }
 
 TEST(Encounters, OfTheSameLastAtLeastSoLong) {
