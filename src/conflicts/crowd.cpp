@@ -12,13 +12,13 @@ Crowd::Crowd(const Scene& scene) : Crowd(scene.file) {
         add(scene.clips[static_cast<std::size_t>(agent.clip)], agent, agent.run_agent >= 0 && agent.run_agent == last);
         last = agent.run_agent;
     }
+    if (is_scene_file(file_)) t0_.reset();
 }
 
 void Crowd::add(const SceneClip& clip, const Agent& agent, bool goes_on) {
     const SourceFacts& facts = clip.facts;
     // Of takes each has its own.
-    if (agents_.empty() && !is_scene_file(file_))
-        t0_ = facts.first_key ? std::optional(*facts.first_key - clip.start) : facts.t0;
+    if (agents_.empty()) t0_ = facts.first_key ? std::optional(*facts.first_key - clip.start) : facts.t0;
     add_doubt(doubts_, clip);
     int samples_before = 0;
     if (goes_on) {

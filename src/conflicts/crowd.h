@@ -33,7 +33,7 @@ struct CrowdWalker {
 
 class Crowd {
   public:
-    /// Nobody, of a file.
+    /// Nobody yet, of a file of tracks.
     explicit Crowd(const std::filesystem::path& file) : file_(file) {}
     /// The agents of a scene, or of a motion file with several performers.
     explicit Crowd(const Scene& scene);

@@ -46,6 +46,8 @@ class QueryList {
     bool empty() const { return size() == 0; }
     /// 0 <= index < size().
     SceneQuery operator[](std::size_t index) const;
+    /// Where all pairs of agents are asked, that of two, a < b; none if they are not.
+    std::optional<std::size_t> index_of(std::size_t a, std::size_t b) const { return pairs_->index_of(a, b); }
 
   private:
     std::pair<int, int> asked_members(const SceneQuery& query) const;

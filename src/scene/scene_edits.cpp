@@ -67,10 +67,11 @@ class ImpliedQueries {
   public:
     explicit ImpliedQueries(const Scene& scene) : implied_(scene.queries.empty()) {
         if (!implied_) return;
+        const AskedPairs asked(scene);
         const auto keep = [&](int query) {
-            if (static_cast<std::size_t>(query) >= query_count(scene)) return;
-            const SceneQuery asked = query_at(scene, static_cast<std::size_t>(query));
-            pairs_[query] = Pair{asked.a.agent, asked.b.agent};
+            if (static_cast<std::size_t>(query) >= asked.size()) return;
+            const auto [a, b] = asked[static_cast<std::size_t>(query)];
+            pairs_[query] = Pair{static_cast<int>(a), static_cast<int>(b)};
         };
         for_each_view(scene, [&](const ViewState& view) {
             if (view.query) keep(*view.query);
@@ -88,24 +89,22 @@ class ImpliedQueries {
 
     void renumber(Scene& scene) const {
         if (!implied_) return;
-        renumber_queries(scene, [&](int query) { return query_now(scene, query, 0); });
+        renumber_queries(scene, queries_now(scene, 0));
     }
 
-    /// The index of what was a query, in a scene where the agents follow so many others; none: it is asked no more.
-    std::optional<int> query_now(const Scene& scene, int query, int others) const {
-        const auto pair = pairs_.find(query);
-        if (pair == pairs_.end()) return std::nullopt;
-        const auto agent = [&](int before) {
-            return static_cast<std::size_t>(before) + static_cast<std::size_t>(others);
+    /// Gives what was a query its index in a scene where the agents follow so many others; none: it is asked no more.
+    /// Refers to this.
+    std::function<std::optional<int>(int)> queries_now(const Scene& scene, int others) const {
+        return [this, asked = AskedPairs(scene), others](int query) -> std::optional<int> {
+            const auto pair = pairs_.find(query);
+            if (pair == pairs_.end()) return std::nullopt;
+            const auto index = asked.index_of(static_cast<std::size_t>(pair->second.a + others),
+                                              static_cast<std::size_t>(pair->second.b + others));
+            return index ? std::optional(static_cast<int>(*index)) : std::nullopt;
         };
-        return asked(AskedPairs(scene).index_of(agent(pair->second.a), agent(pair->second.b)));
     }
 
   private:
-    static std::optional<int> asked(const std::optional<std::size_t>& index) {
-        return index ? std::optional(static_cast<int>(*index)) : std::nullopt;
-    }
-
     struct Pair {
         int a = -1, b = -1;  ///< agents
     };
@@ -351,9 +350,10 @@ void merge(Scene& scene, Scene other) {
     for_each_view(other, [&](ViewState& view) {
         if (view.subtree) view.subtree->agent += first_drawn;
     });
+    const auto now = implied_in_other.queries_now(scene, first_agent);
     merge_debug_state(scene, std::move(other.debug), [&](int query) -> std::optional<int> {
         if (!other_is_implied) return first_query + query;
-        return scene.queries.empty() ? implied_in_other.query_now(scene, query, first_agent) : std::nullopt;
+        return scene.queries.empty() ? now(query) : std::nullopt;
     });
 }
 

@@ -49,7 +49,7 @@ std::optional<int> find_query(const FittedScene& fitted, const QueryKey& key) {
         const std::size_t first = index_of(a);
         const std::size_t second = index_of(b);
         if (first >= second || second >= scene.agents.size() || fitted.queries().empty()) return std::nullopt;
-        const std::optional<std::size_t> index = AskedPairs(scene).index_of(first, second);
+        const std::optional<std::size_t> index = fitted.queries().index_of(first, second);
         return index ? std::optional(static_cast<int>(*index)) : std::nullopt;
     }
     int left = same;
