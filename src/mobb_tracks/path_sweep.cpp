@@ -13,9 +13,9 @@ namespace mobb {
 
 namespace {
 
-constexpr int kMostSamples = 16;   // of a piece
-constexpr double kMostGrowth = 2;  // a piece is at most so many times as wide as its first sample
-constexpr int kMostCells = 64;     // a piece that covers more is not in the grid
+constexpr int kMostSamples = 16;     // of a piece
+constexpr double kMostGrowth = 1.7;  // a piece is at most so many times as wide as its first sample
+constexpr int kMostCells = 64;       // a piece that covers more is not in the grid
 // Widen the pieces by more than any rounding of the predicate, of held and of linear clips (see mobb/separation.cpp):
 // it must not hit where they are apart.
 constexpr double kHeldWidening = 1e-14;
