@@ -92,19 +92,19 @@ int line_out_of_step(std::span<const TrackPoint> points, double step, double rou
     return points.back().line;
 }
 
-/// What tables lack that an option has to say.
+/// What a file lacks that an option has to say.
 void check_columns(const TrackFile& table, const std::string& file, const ImportOptions& options) {
-    if (table.header_line == 0) return;
-    const std::string header = at_line(table.header_line);
-    if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
-    // People have a usual radius.
-    if (!table.has_radius && !table.has_sizes && !options.radius && table.alone)
-        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
+    const std::string header = table.header_line > 0 ? at_line(table.header_line) : "";
     if (!table.rate && !options.dt && !options.fps) {
         throw InputError(file, header,
                          "the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds "
                          "from one frame to the next)");
     }
+    if (table.header_line == 0) return;
+    if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
+    // People have a usual radius.
+    if (!table.has_radius && !table.has_sizes && !options.radius && table.alone)
+        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
     if (table.alone && table.timed && table.tracks.front().points.size() == 1 && !options.dt) {
         throw InputError(file, at_line(table.tracks.front().first_line()),
                          "one row does not tell how long it lasts; give dt (seconds)");
