@@ -184,18 +184,6 @@ std::size_t numbers_in(std::span<const Field> fields) {
         std::ranges::count_if(fields, [](const Field& field) { return parse_double(field.text).has_value(); }));
 }
 
-/// Takes a field off the front of a line. What is in quotes may hold what parts others.
-std::string_view take_word(std::string_view& rest, char separator) {
-    const std::size_t from = rest.starts_with('"') ? std::min(rest.find('"', 1), rest.size()) : 0;
-    const std::size_t at =
-        std::min(separator == ' ' ? rest.find_first_of(" \t", from) : rest.find(separator, from), rest.size());
-    std::string_view field = trimmed(rest.substr(0, at));
-    if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-    rest.remove_prefix(std::min(at + 1, rest.size()));
-    if (separator == ' ') rest = trimmed(rest);
-    return field;
-}
-
 /// What stands in the fields of a line.
 struct FieldCounts {
     std::size_t fields = 0;
@@ -278,8 +266,8 @@ class TextRows final : public Cells {
         }
         if (const std::optional<ColumnFormula>& id = rows_[Column::id])
             out.id_column = columns_.names[*id->only_column()];
-        if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
-            out.time_column = columns_.names[time.front()];
+        if (const std::size_t time = out.timed ? rows_[Column::t]->first_column() : kNoColumn; time != kNoColumn)
+            out.time_column = columns_.names[time];
         out.header_line = columns_.header_line;
         out.fps_is_rate = rows_[Column::frame].has_value();
         if (out.fps_is_rate) out.rate = remarks_.rate();
@@ -460,11 +448,7 @@ class TextRows final : public Cells {
                  "; give every row all of them");
         if (!columns_.spot) return;
         std::string_view rest = trimmed(fields_[*columns_.spot].text);
-        for (std::size_t i = 0; i < kOfSpot; ++i) {
-            const std::string_view word = rest.substr(0, std::min(rest.find(' '), rest.size()));
-            fields_.push_back({word, kUnread});
-            rest = trimmed(rest.substr(word.size()));
-        }
+        for (std::size_t i = 0; i < kOfSpot; ++i) fields_.push_back({take_word(rest, ' '), kUnread});
     }
 
     bool add_row() {
@@ -507,11 +491,10 @@ class TextRows final : public Cells {
         const auto climbs = [&](const Track& track) {
             double least = kNever, most = -kNever;
             for (const TrackPoint& point : track.points) {
-                const double at =
-                    point.detail > 0 ? file.details[static_cast<std::size_t>(point.detail) - 1].z : kNever;
-                if (!(std::abs(at) < kNever)) continue;
-                least = std::min(least, at);
-                most = std::max(most, at);
+                const PointDetail* const detail = file.detail_of(point);
+                if (!detail || std::isnan(detail->z)) continue;
+                least = std::min(least, detail->z);
+                most = std::max(most, detail->z);
             }
             return most - least > least_climb;
         };
@@ -527,7 +510,7 @@ class TextRows final : public Cells {
 
     /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.
     void scale_time() {
-        const std::size_t column = rows_[Column::t]->columns().front();
+        const std::size_t column = rows_[Column::t]->first_column();
         if (!parse_double(fields_[column].text)) return;
         constexpr double kOfMilliseconds = 1e11;
         constexpr double kThousand = 1000;
@@ -685,9 +668,7 @@ class TextRows final : public Cells {
             const auto [least, most] = std::ranges::minmax_element(points, {}, along);
             return along(*least) != along(*most);
         };
-        const auto down = [&out](const TrackPoint& point) {
-            return out.details[static_cast<std::size_t>(point.detail) - 1].z;
-        };
+        const auto down = [&out](const TrackPoint& point) { return out.detail_of(point)->z; };
         const bool is_upright = !moves([](const TrackPoint& point) { return point.y; }) && moves(down);
         for (TrackPoint& point : points) {
             if (is_upright) point.y = down(point);
