@@ -143,9 +143,7 @@ class Judge {
         double share = 0;    ///< of the time somebody makes headway
     };
     std::optional<Median> median_of_all() const {
-        std::size_t points = 0;
-        for (const Track& track : file_.tracks) points += track.points.size();
-        const std::size_t every = points / kMostSpeeds + 1;
+        const std::size_t every = file_.point_count() / kMostSpeeds + 1;
         std::vector<Median> speeds;
         std::size_t at = 0, looked_at = 0, moving = 0;
         for (const Track& track : file_.tracks) {
@@ -219,28 +217,24 @@ class Judge {
         };
         std::string out;
         const auto add = [&out](const std::string& text) { out += (out.empty() ? ": if " : ", if ") + text; };
-        for (const auto& [factor, text] :
-             std::initializer_list<std::pair<double, const char*>>{{0.01, "places are in cm, give unit cm"},
-                                                                   {0.001, "places are in mm, give unit 0.001"},
-                                                                   {0.3048, "places are in feet, give unit 0.3048"},
-                                                                   {1000, "places are in km, give unit 1000"}}) {
-            if (walks(factor)) add(text);
+        const std::string time = file_.time_column.empty() ? "t" : file_.time_column;
+        const auto when = [&](const char* how) { return file_.timed ? "columns t=" + time + how : std::string("dt"); };
+        for (const auto& [factor, unit, remedy] : std::initializer_list<std::tuple<double, const char*, std::string>>{
+                 {0.01, "places are in cm", "unit cm"},
+                 {0.001, "places are in mm", "unit 0.001"},
+                 {0.3048, "places are in feet", "unit 0.3048"},
+                 {1000, "places are in km", "unit 1000"},
+                 {1e3, "times are in ms", when("/1000")},
+                 {1e6, "times are in us", when("/1000000")},
+                 {1e9, "times are in ns", when("/1000000000")},
+                 {1.0 / 60, "times are in minutes", when("*60")},
+                 {1.0 / 3600, "times are in hours", when("*3600")}}) {
+            if (walks(factor)) add(unit + (", give " + remedy));
         }
         if (median_ > kFastestPerson) add("places are in pixels, give unit (metres a pixel)");
         constexpr double kDegree = 111'000;  // metres
         if (walks(kDegree) || (is_on_globe() && median_ < kSlowMedian))
             add("places are degrees, project them to metres first");
-        const std::string time = file_.time_column.empty() ? "t" : file_.time_column;
-        const char* const columns = "columns t=";
-        for (const auto& [factor, text, how] : std::initializer_list<std::tuple<double, const char*, const char*>>{
-                 {1e3, "times are in ms", "/1000"},
-                 {1e6, "times are in us", "/1000000"},
-                 {1e9, "times are in ns", "/1000000000"},
-                 {1.0 / 60, "times are in minutes", "*60"},
-                 {1.0 / 3600, "times are in hours", "*3600"}}) {
-            if (!walks(factor)) continue;
-            add(std::string(text) + ", give " + (file_.timed ? columns + time + how : std::string("dt")));
-        }
         const bool counts = file_.timed && median_ < kOfPeople && has_whole_times();
         if (counts) add("times count frames, give columns frame=" + time + " and fps");
         return out;
@@ -294,9 +288,7 @@ class Judge {
     /// The median of all rows, metres.
     double noise_of_file() {
         if (!noise_of_file_) {
-            std::size_t rows = 0;
-            for (const Track& track : file_.tracks) rows += track.points.size();
-            const std::size_t every = rows / kMostSpeeds + 1;
+            const std::size_t every = file_.point_count() / kMostSpeeds + 1;
             off_line_.clear();
             for (const Track& track : file_.tracks) {
                 for (std::size_t i = 1; i + 1 < track.points.size(); i += every)

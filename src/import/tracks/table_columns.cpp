@@ -242,7 +242,7 @@ void TableColumns::settle_bodies() {
         const std::vector<std::size_t> of = rows_[column] ? rows_[column]->columns() : std::vector<std::size_t>();
         return rows_[Column::z] && std::ranges::count(of, rows_[Column::z]->first_column()) > 0;
     };
-    leave(Column::z, !rows_.has_ids() || rows_[Column::floor] || is_used(Column::x) || is_used(Column::y));
+    leave(Column::z, is_used(Column::x) || is_used(Column::y));
 }
 
 void TableColumns::find_scopes() {

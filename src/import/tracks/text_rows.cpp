@@ -22,8 +22,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kRowsOfHeight = 10'000;  // that tell which way is up
-constexpr std::size_t kMostColumns = 1024;     // a line of a million is refused early
+constexpr std::size_t kMostColumns = 1024;  // a line of a million is refused early
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 // Heads are so high, in metres; standing children and adults on stairs included.
 constexpr double kLowestHead = 0.8;
@@ -177,6 +176,17 @@ bool is_in_quotes(std::string_view text, char separator, bool is_open) {
 struct Field {
     std::string_view text;
     double number;  ///< of most numbers; kUnread: it is read when it is asked for
+};
+
+/// From the least to the most of some numbers.
+struct Extent {
+    double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+
+    void take(double number) {
+        least = std::min(least, number);
+        most = std::max(most, number);
+    }
+    double length() const { return most - least; }
 };
 
 std::size_t numbers_in(std::span<const Field> fields) {
@@ -459,46 +469,33 @@ class TextRows final : public Cells {
             if (rows_.empty()) first_scope_ = scope;
             needs_scopes_ = !columns_.is_weak_scope && scope != first_scope_;
         }
-        if (!rows_.add(*this)) return false;
-        if (columns_.height && looked_at_ < kRowsOfHeight) look_at_height();
-        return true;
+        return rows_.add(*this);
     }
 
-    /// How far places go in x, y and z: where y points up they go in x and z.
-    void look_at_height() {
-        ++looked_at_;
-        for (std::size_t i = 0; i < spread_.size(); ++i) {
-            const std::size_t column =
-                i == 2 ? *columns_.height : *rows_[i == 0 ? Column::x : Column::y]->only_column();
-            std::string text(fields_[column].text);
-            if (separator_ != ',') std::ranges::replace(text, ',', '.');
-            const std::optional<double> at = parse_double(text);
-            if (!at) continue;
-            Spread& of = spread_[i];
-            of.changes += *at != of.last;
-            of = {std::min(of.least, *at), std::max(of.most, *at), *at, of.changes};
-        }
-    }
-    /// What is said then; heights are no floors.
+    /// Where y points up places go in x and z, which is said; such heights are no floors.
     void tell_height(TrackFile& file) {
         constexpr std::size_t kFewest = 10;  // places
-        constexpr double kFlat = 0.01, kGoes = 0.25, kNever = std::numeric_limits<double>::max();
-        const auto length = [](const Spread& of) { return of.most - of.least; };
-        const auto& [x, y, z] = spread_;
-        if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
-        // People on different floors each stay on theirs.
-        const double least_climb = kGoes * length(z);
-        const auto climbs = [&](const Track& track) {
-            double least = kNever, most = -kNever;
+        constexpr double kFlat = 0.01, kGoes = 0.25;
+        Extent x, y, z;
+        double highest_climb = 0, last = kUnread;
+        std::size_t changes = 0;
+        for (const Track& track : file.tracks) {
+            Extent climb;
             for (const TrackPoint& point : track.points) {
                 const PointDetail* const detail = file.detail_of(point);
                 if (!detail || std::isnan(detail->z)) continue;
-                least = std::min(least, detail->z);
-                most = std::max(most, detail->z);
+                changes += std::exchange(last, detail->z) != detail->z;
+                x.take(point.x);
+                y.take(point.y);
+                z.take(detail->z);
+                climb.take(detail->z);
             }
-            return most - least > least_climb;
-        };
-        if (rows_[Column::z] && std::ranges::none_of(file.tracks, climbs)) return;
+            highest_climb = std::max(highest_climb, climb.length());
+        }
+        // People on different floors each stay on theirs.
+        if (changes < kFewest || y.length() > kFlat * z.length() || z.length() < kGoes * x.length() ||
+            highest_climb <= kGoes * z.length())
+            return;
         const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
                           &ground = columns_.names[*columns_.height];
         for (PointDetail& detail : file.details) detail.z = PointDetail::kUntold;
@@ -600,6 +597,8 @@ class TextRows final : public Cells {
     TrackFile finished() {
         TrackFile out = rows_.finish();
         if (columns_.height) tell_height(out);
+        // What keeps nobody apart is a column like any other.
+        if (!rows_.has_ids() || rows_[Column::floor]) rows_[Column::z].reset();
         out.others = columns_.tell_ignored();
         if (decimal_commas_)
             columns_.warnings.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});
@@ -826,12 +825,6 @@ class TextRows final : public Cells {
     std::string first_scope_;
 
     // Of rows of numbers alone:
-    struct Spread {
-        double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest(), last = kUnread;
-        std::size_t changes = 0;  ///< rows whose place is another than that of the row before
-    };
-    std::array<Spread, 3> spread_;  ///< of x, y and z
-    std::size_t looked_at_ = 0;     ///< rows, for that
     const RowFormat* format_ = nullptr;
     std::optional<std::size_t> heads_;  ///< the column of their heights
     std::vector<double> heights_;

@@ -144,8 +144,7 @@ class TrackClipMaker {
                                                                                         std::nullopt, 0,         {}} {
         if (!file.alone) common_.t0 = clock_.t0();
         common_.warnings = file.warnings;
-        std::size_t points = 0;
-        for (const Track& track : file.tracks) points += track.points.size();
+        const std::size_t points = file.point_count();
         if (file.is_large) most_stored_ = std::numeric_limits<std::size_t>::max();
         most_made_ = std::min(most_stored_, most_made(points));
         most_filled_ = most_made_;

@@ -106,6 +106,12 @@ struct TrackFile {
 
     std::vector<ImportWarning> warnings{};  ///< what was ignored
     Spent spent{};                          ///< of the budget
+
+    std::size_t point_count() const {
+        std::size_t out = 0;
+        for (const Track& track : tracks) out += track.points.size();
+        return out;
+    }
 };
 
 /// What the documents say of a format of tracks.
