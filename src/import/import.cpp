@@ -107,7 +107,7 @@ constexpr FileReader kJupedsim{"jupedsim",
                                Contents::trajectories,
                                is_sqlite,
                                {"JuPedSim (`.sqlite`)", "tables `trajectory_data`, `metadata` (versions 1 to 3)",
-                                "metres, `fps` of the metadata"}};
+                                "metres, `fps` of the metadata, else `--fps`"}};
 constexpr FileReader kTrajnetpp{
     "trajnetpp",
     parse_once<parse_trajnetpp>,
