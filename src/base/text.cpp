@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace mobbscope {
 
@@ -408,25 +409,40 @@ bool TextLines::take_piece() {
     if (!more_) return false;
     buffer_.erase(0, buffer_.size() - rest_.size());
     if (!more_(buffer_)) more_ = nullptr;
+    spent_.cover(buffer_.size(), "a line", file_);
     rest_ = buffer_;
     return more_ != nullptr;
 }
 
+/// The first line of the rest that ends behind so many bytes of it.
+void TextLines::take_line(std::size_t from) {
+    std::size_t end = rest_.find('\n', from);
+    for (std::size_t known = rest_.size(); end == std::string_view::npos && take_piece(); known = rest_.size())
+        end = rest_.find('\n', known);
+    whole_ = rest_.substr(0, end);
+    if (whole_.ends_with('\r')) whole_.remove_suffix(1);
+    line_ = trimmed(whole_);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    if (whole_.find('\0', std::min(from, whole_.size())) != std::string_view::npos)
+        fail("holds a NUL byte; this is not a text file, or a damaged one");
+}
+
 bool TextLines::next() {
-    for (;;) {
-        std::size_t end = rest_.find('\n');
-        for (std::size_t known = rest_.size(); end == std::string_view::npos && take_piece(); known = rest_.size())
-            end = rest_.find('\n', known);
-        if (rest_.empty()) return false;
-        whole_ = rest_.substr(0, end);
-        if (whole_.ends_with('\r')) whole_.remove_suffix(1);
-        line_ = trimmed(whole_);
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        ++number_;
-        if (line_.find('\0') != std::string_view::npos)
-            fail("holds a NUL byte; this is not a text file, or a damaged one");
-        if (!line_.empty()) return true;
-    }
+    do {
+        if (rest_.empty() && !take_piece()) return false;
+        number_ += 1 + std::exchange(joined_, 0);
+        take_line(0);
+    } while (line_.empty());
+    return true;
+}
+
+bool TextLines::join() {
+    const auto from = static_cast<std::size_t>(rest_.data() - whole_.data());
+    rest_ = {whole_.data(), from + rest_.size()};
+    const bool is_more = from < rest_.size() || take_piece();
+    joined_ += is_more;
+    take_line(from);
+    return is_more;
 }
 
 void TextLines::fail(const std::string& message) const { throw InputError(file_, at_line(number_), message); }

@@ -1,6 +1,8 @@
 /// Numbers and words in text, the same in every locale.
 #pragma once
 
+#include <base/budget.h>
+
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
@@ -150,11 +152,13 @@ class TextLines {
     /// Moves to the next line that is not blank; false at the end. Throws InputError if it holds a NUL byte. Of a text
     /// in pieces the line before is gone then.
     bool next();
+    /// Puts the next line, blank or not, to the one in hand, which has a line feed between them then; false at the end.
+    bool join();
     bool empty() const { return rest_.empty() && number_ == 0; }  ///< the whole text
 
     std::string_view line() const { return line_; }
     std::string_view whole_line() const { return whole_; }  ///< with the blanks at its ends
-    int number() const { return number_; }                  ///< of the line, from 1; 0 before the first
+    int number() const { return number_; }                  ///< of the line, or the first of it, from 1; 0 before any
 
     /// Throws InputError for this line.
     [[noreturn]] void fail(const std::string& message) const;
@@ -162,13 +166,16 @@ class TextLines {
   private:
     void check();
     bool take_piece();
+    void take_line(std::size_t from);
 
     std::string_view rest_;
     const std::string& file_;
     std::string_view line_, whole_;
     TextPieces more_;
     std::string buffer_;  ///< of a text in pieces: what is at hand of it
+    Spent spent_;         ///< for that
     int number_ = 0;
+    int joined_ = 0;  ///< lines that were put to it
 };
 
 }  // namespace mobbscope

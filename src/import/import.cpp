@@ -107,7 +107,7 @@ constexpr FileReader kJupedsim{"jupedsim",
                                Contents::trajectories,
                                is_sqlite,
                                {"JuPedSim (`.sqlite`)", "tables `trajectory_data`, `metadata` (versions 1 to 3)",
-                                "metres, `fps` of the metadata"}};
+                                "metres, `fps` of the metadata, else `--fps`"}};
 constexpr FileReader kTrajnetpp{
     "trajnetpp",
     parse_once<parse_trajnetpp>,
@@ -302,7 +302,9 @@ ParsedFile parse_clip_file(const std::filesystem::path& file) {
             if (format) reader = format->reader;
         }
         if (reader) return reader->parse(file, input);
-        bytes = input.all().bytes;
+        const std::string name = file.string();
+        const TextLines judged(bytes, name);  // refuses UTF-16 as for those that readers take
+        while (!bytes.empty() && (bytes.back() & 0x80) != 0) bytes.pop_back();  // a letter may be cut
         const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t' && c != '\n' && c != '\r'; };
         if (is_utf8(bytes) && std::ranges::none_of(bytes, is_control))
             what = "looks like text, but no table with a header such as id,t,x,y, no rows of numbers and no plan";

@@ -69,6 +69,34 @@ TEST(Input, TellsInPiecesWhatIsWrong) {
     EXPECT_TRUE(read_on(twice.pieces()) == much() + much());
 }
 
+TEST(TextLines, OfPiecesPayForTheLongest) {
+    const std::string file = "f";
+    constexpr std::size_t kLong = 1 << 20;
+    const std::size_t before = Spent::all();
+    {
+        int pieces = 0;
+        TextLines lines(
+            [&pieces](std::string& to) {
+                to.append(kLong, 'x');
+                return ++pieces <= 4;
+            },
+            file);
+        EXPECT_TRUE(lines.next());
+        ASSERT_GE(Spent::all(), before + 4 * kLong);
+        Spent others;
+        for (std::size_t size = std::size_t{1} << 40; size >= kLong; size /= 2) {
+            while (others.try_add(size)) {
+            }
+        }
+        EXPECT_NE(input_error([&] {
+                      TextLines endless([](std::string& to) { return !to.append(kLong, 'x').empty(); }, file);
+                      endless.next();
+                  }).find("f: a line would take more than"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(Spent::all(), before);
+}
+
 TEST(TextLines, AreTheSameOfPiecesOfAnySize) {
     using namespace std::string_literals;
     for (const std::string& text : {""s, "\n"s, "\xef\xbb\xbf a \r\n\n# b\nlast"s, "one"s, "\r\n \n x\ty \n"s}) {

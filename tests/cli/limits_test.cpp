@@ -141,7 +141,7 @@ TEST_F(LimitsTest, NoSmallPackedFileTakesMuchMemory) {
          "holds more than 10000000 values"},
         {"records.fbx.gz", fbx + repeated("a:1,", kUnpacked) + "1\n", "its records would take"},
         {"values.fbx.gz", fbx + "a: " + repeated("1,", kUnpacked) + "1\n", "its records would take"},
-        {"cells.txt.gz", "0:" + repeated("(0,0),", kUnpacked), "its cells would take"},
+        {"cells.txt.gz", "0:" + repeated("(0,0),", kUnpacked), "its rows would take"},
     };
     for (const auto& kind : kKinds) {
         const std::string file = write(kind.name, gzipped(kind.text));

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,27 @@ TEST(StandardInput, IsNamedInMessages) {
             EXPECT_EQ(run.status, 2);
             EXPECT_TRUE(is_one_line(run.err)) << run.err;
             EXPECT_TRUE(run.err.starts_with(message)) << run.err;
+        }
+    }
+}
+
+TEST(StandardInput, IsRefusedAsWhatItIsLikeAFile) {
+    const TempFolder folder;
+    using namespace std::string_literals;
+    for (const auto& [name, bytes, what] : std::initializer_list<std::tuple<const char*, std::string, const char*>>{
+             {"a.h5", "\x89HDF\r\n\x1a\n\0"s, "looks like an HDF5 file; load it with pandas"},
+             {"a.gpx", "<?xml version=\"1.0\"?><gpx/>", "looks like GPX, whose places are degrees; project them"},
+             {"a.xml", "<a/>", "looks like XML or HTML; export the table as CSV"},
+             {"a.json", "{\"features\": []}", "looks like GeoJSON, whose places are degrees; project them"},
+             {"a.json", "[1]", "looks like JSON, a list; write it as CSV"},
+             {"a.png", "\x89PNG\r\n\x1a\n", "looks like an image (PNG); give the tracks"},
+             {"a.csv", "\xff\xfei\0d\0"s, "line 1: is UTF-16 text; save it as UTF-8"}}) {
+        for (const char* command : {"info", "conflicts", "query"}) {
+            const std::string file = folder.write(name, bytes).string();
+            const std::string piped = run_with(bytes, {command, "-"}).err;
+            EXPECT_TRUE(piped.starts_with("mobbscope: standard input: "s + what)) << piped;
+            EXPECT_EQ(run_program({command, file}).err,
+                      "mobbscope: " + file + piped.substr("mobbscope: standard input"s.size()));
         }
     }
 }

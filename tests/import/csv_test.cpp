@@ -25,6 +25,22 @@ TEST(Csv, ColumnsAreTakenByName) {
     EXPECT_EQ(read[0].name, "f");
 }
 
+TEST(Csv, FieldsInQuotesMayGoOverLines) {
+    const std::string header = "id,t,x,y,\"a\nnote\"\r\n";
+    const std::string rows = "a,0,0,0,\"one\r\n\r\n, \"\"two\"\"\n\"\r\na,1,3,0,\"\"\n";
+    const std::string large = "b,0,5,0,\"" + std::string(200'000, '\n') + "\"\nb,1,6,0,x\"y\n";
+    const auto read = csv_clips(header + rows + large);
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_EQ(read[0].clip->samples()[1].x, 3);
+    EXPECT_EQ(read[1].clip->samples()[1].x, 6);
+    EXPECT_TRUE(csv_refusal(header + rows + "a,2,z,0,\n").starts_with("f.csv: line 8, column 3 (x): 'z' is not"));
+    EXPECT_TRUE(csv_refusal(header + rows + large + "b,2,z,0,\n").starts_with("f.csv: line 200010, column 3"));
+    EXPECT_TRUE(csv_refusal(header + "a,0,z,0,\"\n\"\n").starts_with("f.csv: line 3, column 3 (x)"))
+        << "its first line";
+    EXPECT_TRUE(csv_refusal(header + rows + "a,2,4,0,\"x\ny\n").starts_with("f.csv: line 8, column 5"));
+    EXPECT_EQ(csv_clips("id;t;x;y\n\"a\nb\";0;0;0\n\"a\nb\";1;1;0\n").at(0).id, "a\nb");
+}
+
 TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {
     const std::string_view plain = "t,x,y,r\n0,0,0,0.4\n1,0,1,0.4";
     const std::string_view odd = "\xef\xbb\xbf t , \"x\",\ty,r\r\n\r\n 0 , 0,0,\"0.4\" \r\n  \n1,0,+1,4e-1\r\n\r\n";

@@ -57,6 +57,41 @@ std::string gltf_text() {
                       "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAAAAAABAAAAAAAAAAAA=");
 }
 
+TEST(FileKinds, MotChallengeIsReadWhereItHasPlacesOnTheGround) {
+    const TempFolder folder;
+    const std::string ground = "1,1,794.2,247.5,71.2,174.8,1,0.5,1.5,0\n2,1,-1,-1,-1,-1,1,1,1.5,0\n";
+    ImportOptions options;
+    options.fps = 10;
+    for (const char* name : {"a.txt", "a.csv", "a"}) {
+        const auto file = folder.write(name, ground);
+        const ImportedClip clip = import_clips(file, options).front();
+        EXPECT_EQ(clip.facts.format, "mot");
+        EXPECT_EQ(clip.clip->dt(), 0.1);
+        EXPECT_EQ(clip.clip->samples()[1].x, 1);
+        EXPECT_NE(input_error([&] { import_clips(file, {}); }).find("frame numbers in place of times: give fps"),
+                  std::string::npos);
+        for (const char* boxes :
+             {"1, 1, 794.2, 247.5, 71.2, 174.8, -1, -1, -1, -1\n", "1,1,794,247,71,174,1,1,0.9\n"}) {
+            const std::string said = input_error([&] { import_clips(folder.write(name, boxes), options); });
+            EXPECT_NE(said.find("line 1: is of the MOT Challenge, with boxes in an image"), std::string::npos) << said;
+            const std::string rest = "frame,id,bb_left,bb_top,bb_width,bb_height,conf";
+            EXPECT_NE(said.find(rest.substr(0, rest.rfind(',')) + " and the others"), std::string::npos);
+            const std::string named =
+                std::string(boxes).find("0.9") == std::string::npos ? ",_,_,_\n" : ",class,seen\n";
+            EXPECT_EQ(
+                import_clips(folder.write(name, rest + named + boxes + "2" + std::string(boxes).substr(1)), options)
+                    .front()
+                    .facts.format,
+                "csv");
+        }
+    }
+    EXPECT_NE(input_error([&] {
+                  import_clips(folder.write("b.csv", "0.5,1,2,3,4,5,6,7,8,9\n"), {});
+              }).find("there is no header"),
+              std::string::npos)
+        << "numbers of something else";
+}
+
 TEST(FileKinds, GltfIsToldByItsContentWhateverItsName) {
     const TempFolder folder;
     const std::string text = gltf_text();

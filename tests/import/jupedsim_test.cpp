@@ -47,8 +47,8 @@ std::string database(const std::string& sql) {
     return slurp(file);
 }
 
-std::vector<ImportedClip> jupedsim_clips(const std::string& bytes) {
-    return track_clips(parse_jupedsim(bytes, "f.sqlite"), "f.sqlite", {});
+std::vector<ImportedClip> jupedsim_clips(const std::string& bytes, const ImportOptions& options = {}) {
+    return track_clips(parse_jupedsim(bytes, "f.sqlite"), "f.sqlite", options);
 }
 
 std::string jupedsim_refusal(const std::string& sql) {
@@ -83,6 +83,18 @@ TEST(Jupedsim, EveryVersionIsRead) {
         EXPECT_EQ(read.at(0).clip->dt(), 0.04) << version;
         EXPECT_EQ(read.at(0).clip->samples()[1].y, 4);
     }
+}
+
+TEST(Jupedsim, WithoutTheFramesASecondAnOptionSaysThem) {
+    const std::string bytes =
+        database("CREATE TABLE metadata(key, value);INSERT INTO metadata VALUES('version','2');" + kPoints);
+    ImportOptions options;
+    options.fps = 5;
+    EXPECT_EQ(jupedsim_clips(bytes, options).at(1).start, 1);
+    EXPECT_EQ(jupedsim_clips(bytes, options).at(0).clip->dt(), 0.2);
+    options = {};
+    options.dt = 0.5;
+    EXPECT_EQ(jupedsim_clips(bytes, options).at(1).start, 2.5);
 }
 
 TEST(Jupedsim, IsToldByItsContentAndLeavesNothingBesideTheFile) {
@@ -134,7 +146,10 @@ TEST(Jupedsim, WhatIsMissingOrWrongIsSaid) {
     EXPECT_NE(metadata("('fps','10')").find("its metadata has no version"), std::string::npos);
     EXPECT_NE(metadata("('version','9'),('fps','10')").find("says version '9'"), std::string::npos);
     EXPECT_NE(metadata("('version',NULL),('fps','10')").find("says version ''"), std::string::npos);
-    EXPECT_NE(metadata("('version',2)").find("its metadata has no fps"), std::string::npos);
+    EXPECT_EQ(
+        metadata("('version',2)"),
+        "f.sqlite: the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds from "
+        "one frame to the next)");
     for (const char* fps : {"0", "-1", "fast", "", "1e300", "nan"})
         EXPECT_NE(metadata("('version','2'),('fps','" + std::string(fps) + "')").find("fps of its metadata is"),
                   std::string::npos);

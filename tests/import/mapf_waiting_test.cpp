@@ -119,16 +119,16 @@ TEST(PlanWaiting, AStepFarAwayIsRefusedInOneLine) {
             << said;
     }
     // Ten thousand agents of ten thousand steps are too many, a thousand of a thousand are not.
-    const auto plan = [](int agents, int last) {
-        std::vector<Track> tracks;
-        for (int i = 0; i < agents; ++i) tracks.push_back({std::to_string(i), {{0, 0, double(i), 1}}});
-        for (int t = 1; t <= last; ++t) tracks[0].points.push_back({double(t), double(t), 0, t});
-        return tracks;
+    const std::string file = "f";
+    const auto plan = [&file](int agents, int last) {
+        TrackCollector tracks(file);
+        for (int i = 0; i < agents; ++i) tracks.add(std::to_string(i), {0, 0, double(i), 1});
+        for (int t = 1; t <= last; ++t) tracks.add("0", {double(t), double(t), 0, t});
+        return plan_of(tracks, file);
     };
-    EXPECT_EQ(plan_of(plan(1000, 1000), "f").tracks.back().points.size(), 1001u);
-    EXPECT_NE(
-        input_error([&] { plan_of(plan(10'000, 10'000), "f"); }).find("over 10000000; check t, or split the plan"),
-        std::string::npos);
+    EXPECT_EQ(plan(1000, 1000).tracks.back().points.size(), 1001u);
+    EXPECT_NE(input_error([&] { plan(10'000, 10'000); }).find("over 10000000; check t, or split the plan"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -172,6 +172,9 @@ TEST(TableKinds, UnitsOfMinutesHoursAndInches) {
     EXPECT_EQ(csv_clips("t [min],x [in],y [in],r [in]\n0,0,0,10\n1,100,0,10\n")[0].clip->dt(), 60);
     EXPECT_EQ(csv_clips("t/h,x,y,r\n0,0,0,1\n1,1,0,1\n")[0].clip->dt(), 3600);
     EXPECT_DOUBLE_EQ(second(csv_clips("t,x [in],y [in],r [in]\n0,0,0,10\n1,100,0,10\n")[0]).x, 2.54);
+    for (const char* header :
+         {"t,x [km],y [km],r [km]\n", "t,x_km,y_km,r_km\n", "t,x/km,y/kilometres,r (kilometers)\n"})
+        EXPECT_DOUBLE_EQ(second(csv_clips(header + std::string("0,0,0,0.0002\n1,0.001,0,0.0002\n"))[0]).x, 1);
     // What programs write of whole numbers where some are missing.
     EXPECT_EQ(csv_clips("id,t,x,y\n1,0,0,0\n1.0,1,1,0\n").size(), 1u);
     EXPECT_EQ(csv_clips("id,t,x,y\n1.0,0,0,0\n1.0,1,0,0\n1.05,1,1,0\n").size(), 2u);

@@ -53,6 +53,8 @@ TEST(Trajnetpp, BadLinesAreNamed) {
         std::string text, message;
     } cases[] = {
         {"", "line 0: the file has no track"},
+        {R"({"track": {"f": 1, "p": 1, "x": 0, "y": 0, "prediction_number": 0}})",
+         "holds predictions of TrajNet++ alone, 1 point: give the file with the recorded tracks"},
         {first + "{", "line 2: is not JSON"},
         {first + "[1]", "line 2: is neither"},
         {first + R"({"track": 3})", "line 2: 'track' must be an object"},

@@ -3,6 +3,7 @@
 
 #include <import/clip/column_names.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -52,6 +53,12 @@ class ColumnFormula {
 
     /// Those that it takes numbers from.
     std::vector<std::size_t> columns() const;
+    /// Of those; kNone: it is made of numbers alone.
+    std::size_t first_column() const {
+        const auto at = std::ranges::find(steps_, Kind::column, &Step::kind);
+        return at == steps_.end() ? kNone : at->column;
+    }
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
     /// The one that it is, without being worked out.
     std::optional<std::size_t> only_column() const;
 

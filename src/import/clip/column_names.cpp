@@ -24,6 +24,7 @@ struct Unit {
 };
 constexpr Unit kLengths[] = {
     {"m", 1},      {"meter", 1},          {"metre", 1},          {"meters", 1},          {"metres", 1},
+    {"km", 1000},  {"kilometer", 1000},   {"kilometre", 1000},   {"kilometers", 1000},   {"kilometres", 1000},
     {"cm", 0.01},  {"centimeter", 0.01},  {"centimetre", 0.01},  {"centimeters", 0.01},  {"centimetres", 0.01},
     {"mm", 0.001}, {"millimeter", 0.001}, {"millimetre", 0.001}, {"millimeters", 0.001}, {"millimetres", 0.001},
     {"ft", kFoot}, {"foot", kFoot},       {"feet", kFoot},       {"inch", kInch},        {"inches", kInch},

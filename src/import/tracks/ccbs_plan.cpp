@@ -4,6 +4,7 @@
 #include <import/tracks/xml_text.h>
 #include <mobb/clip.h>
 
+#include <algorithm>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -25,37 +26,34 @@ class CcbsReader {
         }
         for (const pugi::xml_node agent : log.children("agent")) read_agent(agent);
         if (tracks_.empty()) xml_.fail(log, "has no agent with a path; was a solution found?");
-        TrackFile out = plan_of(std::move(tracks_), file_, std::move(spent_));
+        TrackFile out = plan_of(tracks_, file_);
         out.warnings.push_back({"i and j of the plan are taken as row and column: x is the column, y the row"});
         return out;
     }
 
   private:
     void read_agent(pugi::xml_node agent) {
-        Track track{std::string(xml_.text(agent, "number")), {}};
-        if (!is_utf8(track.id)) xml_.fail(agent, "its number is not UTF-8 text");
-        double time = 0;
+        const std::string id(xml_.text(agent, "number"));
+        if (!is_utf8(id)) xml_.fail(agent, "its number is not UTF-8 text");
+        if (!ids_.insert(id).second) xml_.fail(agent, in_quotes(id) + " is there twice; leave one");
+        TrackPoint last{-1};
         for (const pugi::xml_node section : agent.child("path").children("section")) {
-            const TrackPoint from = point(section, "start_j", "start_i", time);
-            if (track.points.empty()) {
-                track.points.push_back(from);
-            } else if (from.x != track.points.back().x || from.y != track.points.back().y) {
+            const TrackPoint from = point(section, "start_j", "start_i", std::max(last.frame, 0.0));
+            if (last.frame < 0) {
+                tracks_.add(id, from);
+            } else if (from.x != last.x || from.y != last.y) {
                 xml_.fail(section, "begins where the section before does not end; check them");
             }
             const double seconds = xml_.number(section, "duration", kMaxFrame);
             if (seconds < 0) xml_.fail(section, "its duration is negative; give 0 or more");
-            const TrackPoint to = point(section, "goal_j", "goal_i", time += seconds);
-            if (to.frame > track.points.back().frame) {
-                track.points.push_back(to);
-            } else if (to.x != from.x || to.y != from.y) {
+            last = point(section, "goal_j", "goal_i", from.frame + seconds);
+            if (last.frame > from.frame) {
+                tracks_.add(id, last);
+            } else if (last.x != from.x || last.y != from.y) {
                 xml_.fail(section, "goes elsewhere in no time; check its duration");
             }
-            count_ += 1;
-            spent_.cover(kBytesOfPoint * count_ + kBytesOfTrack * tracks_.size(), "its sections", file_);
         }
-        if (track.points.empty()) xml_.fail(agent, "has no section; give its path one");
-        if (!ids_.insert(track.id).second) xml_.fail(agent, in_quotes(track.id) + " is there twice; leave one");
-        tracks_.push_back(std::move(track));
+        if (last.frame < 0) xml_.fail(agent, "has no section; give its path one");
     }
 
     TrackPoint point(pugi::xml_node section, const char* x, const char* y, double time) {
@@ -65,10 +63,8 @@ class CcbsReader {
 
     XmlText xml_;
     const std::string& file_;
-    std::vector<Track> tracks_;
+    TrackCollector tracks_{file_};
     std::unordered_set<std::string> ids_;
-    std::size_t count_ = 0;  ///< sections
-    Spent spent_;
 };
 
 }  // namespace

@@ -116,7 +116,7 @@ class JupedsimReader final : public Cells {
 
     TrackFile read() {
         check_tables();
-        const double rate = read_metadata();
+        const std::optional<double> rate = read_metadata();
         std::size_t place = 0;
         for (const Column column : {Column::frame, Column::id, Column::x, Column::y}) rows_[column].emplace(place++);
         rows_.whole_in = "jupedsim";
@@ -130,6 +130,7 @@ class JupedsimReader final : public Cells {
         TrackFile out = rows_.finish();
         out.format = "jupedsim";
         out.rate = rate;
+        out.fps_is_rate = !rate;
         return out;
     }
 
@@ -167,8 +168,8 @@ class JupedsimReader final : public Cells {
             "pos_y, and a table metadata with key and value");
     }
 
-    /// Frames per second.
-    double read_metadata() {
+    /// Frames per second; none: it does not say them.
+    std::optional<double> read_metadata() {
         std::optional<std::string> version, fps;
         database_.each("SELECT key, value FROM metadata", [&](sqlite3_stmt* row) {
             check_count();
@@ -181,12 +182,12 @@ class JupedsimReader final : public Cells {
             database_.fail("its metadata says version " + in_quotes(*version) + " of JuPedSim's format; versions " +
                            listed(kVersions) + " are read");
         }
-        if (!fps) database_.fail("its metadata has no fps, the frames a second; JuPedSim writes it");
+        if (!fps) return std::nullopt;
         const std::optional<double> rate = parse_double(*fps);
         if (!rate || !(*rate > 0 && *rate <= kMaxFrameRate)) {
             database_.fail("fps of its metadata is " + in_quotes(*fps) + "; it must be over 0 and up to 1000000");
         }
-        return *rate;
+        return rate;
     }
 
     void check_count() {

@@ -108,6 +108,13 @@ class YamlEvents {
     int line_ = 1;
 };
 
+/// One of an agent.
+struct Step {
+    TrackPoint point{};
+    PointDetail detail{};
+    bool has_z = false;
+};
+
 class PlanReader {
   public:
     /// A plan of so many bytes has at most so many steps, unless it repeats them by aliases.
@@ -139,8 +146,7 @@ class PlanReader {
         yaml_.next();
         if (yaml_.type() == YAML_DOCUMENT_START_EVENT) yaml_.fail("holds several documents ('---'); leave one plan");
         if (tracks_.empty()) yaml_.fail(schedule_line_, "the schedule has no step; add agents with t, x, y");
-        TrackFile out = plan_of(tracks_.take_sorted(), file_, tracks_.take_spent());
-        out.details = std::move(heights_);
+        TrackFile out = plan_of(tracks_, file_);
         if (without_steps_ > 0) {
             out.warnings.push_back({counted(without_steps_, "agent has", "agents have") + " no step, such as " +
                                     in_quotes(without_step_) + "; left out"});
@@ -170,38 +176,39 @@ class PlanReader {
 
     void read_agent(const std::string& name) {
         if (yaml_.type() == YAML_ALIAS_EVENT) {
-            for (const TrackPoint& point : anchored(agents_)) add(name, point);
+            for (const Step& step : anchored(agents_)) add(name, step);
             return;
         }
         if (yaml_.type() != YAML_SEQUENCE_START_EVENT) yaml_.fail(in_quotes(name) + " must have a list of t, x, y");
         const std::string anchor = yaml_.anchor();
-        std::vector<TrackPoint> points;  // of an anchor
+        std::vector<Step> steps;  // of an anchor
         bool has_step = false;
         for (yaml_.next(); yaml_.type() != YAML_SEQUENCE_END_EVENT; yaml_.next()) {
-            const TrackPoint point = read_step();
-            add(name, point);
+            const Step step = read_step();
+            add(name, step);
             has_step = true;
-            if (!anchor.empty()) points.push_back(point);
+            if (!anchor.empty()) steps.push_back(step);
         }
         if (!has_step && without_steps_++ == 0) without_step_ = name;
-        if (!anchor.empty()) agents_[anchor] = std::move(points);
+        if (!anchor.empty()) agents_[anchor] = std::move(steps);
     }
 
-    void add(const std::string& name, const TrackPoint& point) {
+    void add(const std::string& name, const Step& step) {
         if (most_-- == 0)
             yaml_.fail("there are more steps than the file can hold, or than " + std::to_string(kMaxSamples) +
                        "; write them out, without aliases, or split the plan");
-        tracks_.add(name, point);
+        tracks_.add(name, step.point, {}, step.has_z ? &step.detail : nullptr);
     }
 
     /// One "- t: 3 x: 1 y: 2"; goes to its last event.
-    TrackPoint read_step() {
+    Step read_step() {
         if (yaml_.type() == YAML_ALIAS_EVENT) return anchored(steps_);
         if (yaml_.type() != YAML_MAPPING_START_EVENT) yaml_.fail("a step of the plan must be a map of t, x and y");
         const std::string anchor = yaml_.anchor();
-        TrackPoint point;
+        Step step;
+        TrackPoint& point = step.point;
         point.line = yaml_.line();
-        bool has_t = false, has_x = false, has_y = false, has_z = false;
+        bool has_t = false, has_x = false, has_y = false;
         for (yaml_.next(); yaml_.type() != YAML_MAPPING_END_EVENT; yaml_.next()) {
             const std::string_view key = yaml_.is_scalar() ? yaml_.scalar() : "";
             if (key == "t") {
@@ -211,9 +218,7 @@ class PlanReader {
             } else if (key == "y") {
                 read_number("y", point.y, has_y, mobb::kMaxLength);
             } else if (key == "z") {
-                heights_.emplace_back();
-                read_number("z", heights_.back().z, has_z, mobb::kMaxLength);
-                point.detail = static_cast<int>(heights_.size());
+                read_number("z", step.detail.z, step.has_z, mobb::kMaxLength);
             } else {
                 if (key == kMergeKey && !yaml_.is_quoted()) fail_at_merge_key();
                 yaml_.pass_over();
@@ -222,8 +227,8 @@ class PlanReader {
             }
         }
         if (!has_t || !has_x || !has_y) yaml_.fail(point.line, "the step lacks one of t, x and y; add it");
-        if (!anchor.empty()) steps_[anchor] = point;
-        return point;
+        if (!anchor.empty()) steps_[anchor] = step;
+        return step;
     }
 
     /// The value of the key at hand.
@@ -268,13 +273,12 @@ class PlanReader {
     std::size_t most_;  ///< steps that may still come
     TrackCollector tracks_{file_};
     int schedule_line_ = 1;
-    std::vector<PointDetail> heights_;
     int without_steps_ = 0;     ///< agents
     std::string without_step_;  ///< the first of them
     // By anchor, of what stands in the schedule.
     std::map<std::string, double> numbers_;
-    std::map<std::string, TrackPoint> steps_;
-    std::map<std::string, std::vector<TrackPoint>> agents_;
+    std::map<std::string, Step> steps_;
+    std::map<std::string, std::vector<Step>> agents_;
 };
 
 }  // namespace

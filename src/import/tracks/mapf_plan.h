@@ -11,10 +11,10 @@
 namespace mobbscope {
 
 /// The plan that tracks make: whoever is in it is where it begins from step 0 on, and where it ended until the plan's
-/// last step. Tracks get points for that, and for steps that are missing between others; `tracks` is not empty. Throws
-/// InputError if that makes far more points than the file has, more than kMaxSamples, or more than the budget, of which
-/// `spent` is what the tracks take.
-TrackFile plan_of(std::vector<Track> tracks, const std::string& file, Spent spent = {});
+/// last step. Tracks get points for that, and for steps that are missing between others; `from` is not empty. Throws
+/// InputError as TrackCollector::take_sorted does, and if that makes far more points than the file has, more than
+/// kMaxSamples, or more than the budget.
+TrackFile plan_of(TrackCollector& from, const std::string& file);
 
 /// Whether a text, or its first lines, is a plan that parse_mapf_text_plan reads, or refuses with a hint.
 bool looks_like_mapf_text_plan(std::string_view text);

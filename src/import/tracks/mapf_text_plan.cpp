@@ -198,13 +198,13 @@ class TextPlanParser {
         std::size_t agent = 0;
         for (TrackPoint point{step, 0, 0, lines_.number()}; reader.next(point.x, point.y); ++agent) {
             has_targets_ = reader.pass_over_target() || has_targets_;
-            if (!step_) tracks_.push_back({std::to_string(agent), {}});
-            if (agent < tracks_.size()) add(tracks_[agent], point);
+            tracks_.add(std::to_string(agent), point);
         }
         if (agent == 0) lines_.fail("the step has no cell; " + std::string(kHint));
-        if (agent != tracks_.size())
+        if (step_ && agent != agents_)
             lines_.fail("has " + counted(agent, "cell", "cells") + " but the steps before it have " +
-                        std::to_string(tracks_.size()) + "; give every agent one in each step");
+                        std::to_string(agents_) + "; give every agent one in each step");
+        agents_ = agent;
         step_ = step;
     }
 
@@ -212,25 +212,16 @@ class TextPlanParser {
         const std::string id(label.number);
         if (!ids_.insert(id).second) lines_.fail("agent " + id + " has a line already; leave one");
         CellReader reader(label.cells, lines_);
-        Track track{id, {}};
         TrackPoint point{0, 0, 0, lines_.number()};
         while (reader.next(point.y, point.x)) {
-            add(track, point);
+            tracks_.add(id, point);
             ++point.frame;
         }
-        if (track.points.empty()) lines_.fail("agent " + id + " has no cell; " + std::string(kHint));
-        tracks_.push_back(std::move(track));
-    }
-
-    void add(Track& track, const TrackPoint& point) {
-        if (++count_ > kMaxSamples)
-            lines_.fail("there are more than " + std::to_string(kMaxSamples) + " cells; split the plan");
-        spent_.cover(kBytesOfPoint * count_ + kBytesOfTrack * tracks_.size(), "its cells", file_);
-        track.points.push_back(point);
+        if (point.frame == 0) lines_.fail("agent " + id + " has no cell; " + std::string(kHint));
     }
 
     TrackFile finished() {
-        TrackFile out = plan_of(std::move(tracks_), file_, std::move(spent_));
+        TrackFile out = plan_of(tracks_, file_);
         if (*of_ == LineOf::agent) {
             out.warnings.push_back(
                 {"cells of a line an agent are taken as (row, column), as EECBS and MAPF-LNS2 write them: x is the "
@@ -242,12 +233,11 @@ class TextPlanParser {
 
     TextLines lines_;
     const std::string& file_;
-    std::vector<Track> tracks_;
+    TrackCollector tracks_{file_};
     std::unordered_set<std::string> ids_;  ///< of lines an agent
     std::optional<LineOf> of_;
     std::optional<double> step_;  ///< the last one
-    std::size_t count_ = 0;       ///< cells
-    Spent spent_;
+    std::size_t agents_ = 0;      ///< of each step
     bool in_tasks_ = false;
     bool has_targets_ = false;
 };

@@ -49,11 +49,8 @@ std::vector<TrackPoint> starts_in(const std::string& scenario) {
     while (lines.next()) {
         if (lines.line().starts_with("version")) continue;
         std::vector<std::string_view> words;
-        for (std::string_view rest = lines.line(); !rest.empty() && words.size() <= kY; rest = trimmed(rest)) {
-            const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-            words.push_back(rest.substr(0, end));
-            rest.remove_prefix(end);
-        }
+        for (std::string_view rest = lines.line(); !rest.empty() && words.size() <= kY;)
+            words.push_back(take_word(rest, ' '));
         const std::optional<int> x = words.size() > kY ? parse_int(words[kX]) : std::nullopt;
         const std::optional<int> y = words.size() > kY ? parse_int(words[kY]) : std::nullopt;
         if (!x || !y) lines.fail("is no row of a scenario, which has a start x y in its columns 5 and 6");
@@ -93,7 +90,7 @@ class TrackerReader {
             read_agent(agent, starts[agent], paths.substr(0, end));
             paths.remove_prefix(std::min(end + 1, paths.size()));
         }
-        TrackFile out = plan_of(std::move(tracks_), file_, std::move(spent_));
+        TrackFile out = plan_of(tracks_, file_);
         out.warnings.push_back({"agents start where " + scenario + " says"});
         return out;
     }
@@ -123,33 +120,24 @@ class TrackerReader {
     }
 
     void read_agent(std::size_t agent, TrackPoint at, std::string_view moves) {
-        Track track{std::to_string(agent), {}};
+        const std::string id = std::to_string(agent);
         at.line = row_line_ + static_cast<int>(agent);
-        const auto add = [&] {
-            if (++count_ > kMaxSamples)
-                fail(at.line, "there are more than " + std::to_string(kMaxSamples) + " steps; split the plan");
-            spent_.cover(kBytesOfPoint * count_ + kBytesOfTrack * tracks_.size(), "its steps", file_);
-            track.points.push_back(at);
-            ++at.frame;
-        };
-        add();
+        tracks_.add(id, at);
         for (const char move : moves) {
             if (move != 'w' && move != 'r' && move != 'l' && move != 'u' && move != 'd')
                 fail(at.line, in_quotes({&move, 1}) + " is no move; they are u, d, l, r and w");
             at.x += move == 'r' ? 1 : move == 'l' ? -1 : 0;
             at.y += move == 'd' ? 1 : move == 'u' ? -1 : 0;
-            add();
+            ++at.frame;
+            tracks_.add(id, at);
         }
-        tracks_.push_back(std::move(track));
     }
 
     std::string_view text_;
     const std::string& file_;
     int line_ = 1;      ///< of what is left of the text
     int row_line_ = 1;  ///< of the plan's first agent
-    std::vector<Track> tracks_;
-    std::size_t count_ = 0;  ///< points
-    Spent spent_;
+    TrackCollector tracks_{file_};
 };
 
 }  // namespace

@@ -99,7 +99,9 @@ void fill(Track& track, const PlanSpan& plan, const std::optional<double>& step)
 
 }  // namespace
 
-TrackFile plan_of(std::vector<Track> tracks, const std::string& file, Spent spent) {
+TrackFile plan_of(TrackCollector& from, const std::string& file) {
+    std::vector<Track> tracks = from.take_sorted();
+    Spent spent = from.take_spent();
     PlanSpan plan;
     const TrackPoint* latest = &tracks.front().points.back();
     std::size_t longest = 0;
@@ -131,6 +133,7 @@ TrackFile plan_of(std::vector<Track> tracks, const std::string& file, Spent spen
     TrackFile out;
     out.format = "mapf";
     out.tracks = std::move(tracks);
+    out.details = from.take_details();
     out.spent = std::move(spent);
     out.rate_assumption = "a step of the plan counts as one second; give dt (seconds a step) if that is wrong";
     out.unit_assumption = "a cell of the plan counts as one metre; give unit (metres a cell) if that is wrong";

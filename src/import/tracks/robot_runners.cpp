@@ -37,7 +37,7 @@ class RobotRunnersReader {
                        counted(starts.size(), "start", "starts") + "; give every robot one of each");
         }
         for (int i = 0; i < paths.size(); ++i) read_robot(std::to_string(i), starts[i], paths[i]);
-        TrackFile out = plan_of(std::move(tracks_), root_.file(), std::move(spent_));
+        TrackFile out = plan_of(tracks_, root_.file());
         out.warnings.push_back({"cells are (row, column): x is the column, y the row"});
         if (planned) {
             out.warnings.push_back(
@@ -61,13 +61,10 @@ class RobotRunnersReader {
         if (start.size() < 2) start.fail("must be [row, column], and with turns a heading such as \"E\"");
         int row = start[0].integer(-kMostCells, kMostCells), column = start[1].integer(-kMostCells, kMostCells);
         std::size_t heading = turns_ ? heading_of(start) : 0;
-        Track track{id, {}};
+        int step = 0;
         const auto add = [&] {
-            if (++count_ > kMaxSamples)
-                path.fail("there are more than " + std::to_string(kMaxSamples) + " steps; split the plan");
-            spent_.cover(kBytesOfPoint * count_ + kBytesOfTrack * tracks_.size(), "its steps", root_.file());
-            const auto step = static_cast<double>(track.points.size());
-            track.points.push_back({step, static_cast<double>(column), static_cast<double>(row), path.line()});
+            tracks_.add(
+                id, {static_cast<double>(step++), static_cast<double>(column), static_cast<double>(row), path.line()});
         };
         add();
         for (const char action : path.string()) {
@@ -79,7 +76,7 @@ class RobotRunnersReader {
             } else if (turns_ && (action == 'R' || action == 'C')) {
                 heading = (heading + (action == 'R' ? 1 : 3)) % kHeadings.size();
             } else if (action != 'W' && action != 'T' && !(turns_ && action == 'F')) {
-                path.fail("step " + std::to_string(track.points.size()) + " is " + in_quotes({&action, 1}) +
+                path.fail("step " + std::to_string(step) + " is " + in_quotes({&action, 1}) +
                           (turns_ ? ", which is none of F, R, C, W and T" : ", which is none of R, D, L, U, W and T"));
             }
             if (move != std::string_view::npos || (turns_ && action == 'F')) {
@@ -88,7 +85,6 @@ class RobotRunnersReader {
             }
             add();
         }
-        tracks_.push_back(std::move(track));
     }
 
     std::size_t heading_of(const JsonPlace& start) const {
@@ -103,9 +99,7 @@ class RobotRunnersReader {
     JsonText text_;
     JsonPlace root_;
     bool turns_ = true;
-    std::vector<Track> tracks_;
-    std::size_t count_ = 0;  ///< points
-    Spent spent_;
+    TrackCollector tracks_{root_.file()};
 };
 
 }  // namespace

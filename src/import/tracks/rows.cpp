@@ -25,20 +25,19 @@ double RowReader::value(const Cells& cells, Column column, double largest) const
     if (!made) return 0;
     const double value = made->of([&cells](std::size_t at) { return cells.number(at); });
     if (std::abs(value) <= largest) return value;
-    const std::vector<std::size_t> from = made->columns();
-    const std::size_t place = from.empty() ? Cells::kNoColumn : from.front();
+    const std::size_t at = place(column);
     if (made->only_column())
-        cells.fail(place, in_quotes(cells.text(place)) + " is beyond " + format_double(largest) + "; check the units");
-    cells.fail(place, std::string(name(column)) + " becomes " + brief(value) + ", which is not a number up to " +
-                          format_double(largest) + "; check the " + (from.empty() ? "option columns" : "units"));
+        cells.fail(at, in_quotes(cells.text(at)) + " is beyond " + format_double(largest) + "; check the units");
+    cells.fail(at, std::string(name(column)) + " becomes " + brief(value) + ", which is not a number up to " +
+                       format_double(largest) + "; check the " + (at == Cells::kNoColumn ? "option columns" : "units"));
 }
 
 double RowReader::whole(const Cells& cells, Column column) const {
     const double value = this->value(cells, column, kMaxFrame);
     if (value == std::floor(value)) return value;
-    const std::size_t place = (*this)[column]->columns().front();
-    cells.fail(place, in_quotes(cells.text(place)) + " is not a whole number, as ids and frames of this format (" +
-                          std::string(whole_in) + ") are; check the columns");
+    const std::size_t at = place(column);
+    cells.fail(at, in_quotes(cells.text(at)) + " is not a whole number, as ids and frames of this format (" +
+                       std::string(whole_in) + ") are; check the columns");
 }
 
 double RowReader::when(const Cells& cells) const {
@@ -48,17 +47,16 @@ double RowReader::when(const Cells& cells) const {
 
 double RowReader::radius(const Cells& cells) const {
     double largest = value(cells, Column::r, mobb::kMaxLength);
-    std::size_t place = axes.empty() ? Cells::kNoColumn : axes.front();
-    if (has(Column::r) && !(*this)[Column::r]->columns().empty()) place = (*this)[Column::r]->columns().front();
+    const std::size_t of_r = place(Column::r), at = of_r == Cells::kNoColumn && !axes.empty() ? axes.front() : of_r;
     bool negative = largest < 0;
     for (const std::size_t axis : axes) {
         const double length = cells.number(axis);
         negative = negative || length < 0;
         largest = std::max(largest, length);
     }
-    if (negative) cells.fail(place, "the radius is negative; give 0 or more");
+    if (negative) cells.fail(at, "the radius is negative; give 0 or more");
     if (largest > mobb::kMaxLength)
-        cells.fail(place, brief(largest) + " is beyond " + format_double(mobb::kMaxLength) + "; check the units");
+        cells.fail(at, brief(largest) + " is beyond " + format_double(mobb::kMaxLength) + "; check the units");
     return largest;
 }
 
@@ -72,13 +70,11 @@ std::string_view RowReader::identifier(const Cells& cells) {
         }
         return id_text_;
     }
-    const std::size_t place = *(*this)[Column::id]->only_column();
-    std::string_view text = cells.text(place);
-    if (text.empty()) cells.fail(place, "the field is empty; name the track");
+    std::string_view text = cells.name_in(place(Column::id), "the name");
+    if (text.empty()) cells.fail(place(Column::id), "the field is empty; name the track");
     // "1.0" is what programs write of 1 where others are missing.
     const std::size_t point = text.find_first_not_of("0123456789");
     if (point > 0 && text.substr(std::min(point, text.size())) == ".0") text = text.substr(0, point);
-    if (!is_utf8(text)) cells.fail(place, "the name is not UTF-8 text; save the file as UTF-8");
     if (const std::string& kind = groups_[at_].kind; !kind.empty()) {
         // A person may be called like a vehicle.
         const bool is_first = kinds_.try_emplace(std::string(text), at_).first->second == at_;
@@ -86,10 +82,7 @@ std::string_view RowReader::identifier(const Cells& cells) {
     }
     if (scopes.empty()) return text;
     scoped_id_.clear();
-    for (const std::size_t scope : scopes) {
-        if (!is_utf8(cells.text(scope))) cells.fail(scope, "the name is not UTF-8 text; save the file as UTF-8");
-        scoped_id_.append(cells.text(scope)).append("/");
-    }
+    for (const std::size_t scope : scopes) scoped_id_.append(cells.name_in(scope, "the name")).append("/");
     scope_size_ = scoped_id_.size() - 1;
     return scoped_id_.append(text);
 }
@@ -97,12 +90,9 @@ std::string_view RowReader::identifier(const Cells& cells) {
 std::string_view RowReader::label(const Cells& cells) const {
     const std::string_view kind = groups_[at_].kind;
     if (!has(Column::label)) return kind;
-    const std::size_t place = *(*this)[Column::label]->only_column();
-    const std::string_view text = cells.text(place);
+    const std::string_view text = cells.name_in(place(Column::label), "the label");
     // A type of which nothing is known says less than the kind.
-    if (!kind.empty() && (text.starts_with("DEFAULT_") || !road_user(text))) return kind;
-    if (!is_utf8(text)) cells.fail(place, "the label is not UTF-8 text; save the file as UTF-8");
-    return text;
+    return !kind.empty() && (text.starts_with("DEFAULT_") || !road_user(text)) ? kind : text;
 }
 
 bool RowReader::has_details() const {
@@ -123,10 +113,8 @@ PointDetail RowReader::detail(const Cells& cells) {
     };
     PointDetail out{size(Column::length), size(Column::width), number(Column::heading, mobb::kMaxDegrees),
                     number(Column::z, mobb::kMaxLength)};
-    if (!has(Column::floor) || cells.is_empty(*(*this)[Column::floor]->only_column())) return out;
-    const std::size_t place = *(*this)[Column::floor]->only_column();
-    std::string name(cells.text(place));
-    if (!is_utf8(name)) cells.fail(place, "the floor is not UTF-8 text; save the file as UTF-8");
+    if (!has(Column::floor) || cells.is_empty(place(Column::floor))) return out;
+    std::string name(cells.name_in(place(Column::floor), "the floor"));
     if (const std::optional<double> level = parse_double(name)) name = format_double(*level);
     const auto [at, is_new] = floors_.try_emplace(std::move(name), static_cast<int>(floors_.size()));
     out.floor = at->second;
@@ -158,13 +146,12 @@ void RowReader::tell_details(TrackFile& file) {
 
 bool RowReader::is_left_out(const Cells& cells) {
     const auto is_set = [&](Column column) {
-        const std::size_t place = *(*this)[column]->only_column();
-        const std::string text = lower(cells.text(place));
+        const std::string text = lower(cells.text(place(column)));
         const auto is = [&text](std::string_view word) { return text == word; };
         if (const std::optional<double> number = parse_double(text)) return *number != 0;
         if (std::ranges::any_of(std::array{"", "false", "no", "n", "f", "off"}, is)) return false;
         if (std::ranges::any_of(std::array{"true", "yes", "y", "t", "on"}, is)) return true;
-        cells.fail(place, in_quotes(text) + " is neither yes nor no; write 1 or 0");
+        cells.fail(place(column), in_quotes(text) + " is neither yes nor no; write 1 or 0");
     };
     if ((has(Column::lost) && is_set(Column::lost)) || (has(Column::active) && !is_set(Column::active))) {
         ++lost_;
@@ -178,8 +165,8 @@ bool RowReader::is_left_out(const Cells& cells) {
     if (!has_ids()) return false;
     constexpr double kNowhere = -1073741824;  // SUMO's, of what is put elsewhere
     for (const Column column : {Column::x, Column::y}) {
-        for (const std::size_t place : (*this)[column]->columns()) {
-            if (!cells.is_empty(place) && (groups_[at_].kind.empty() || cells.value(place) != kNowhere)) continue;
+        for (const std::size_t at : (*this)[column]->columns()) {
+            if (!cells.is_empty(at) && (groups_[at_].kind.empty() || cells.value(at) != kNowhere)) continue;
             // Where each row has several, those who are not there have no cells.
             if ((groups_.size() == 1 || has(Column::id)) && empty_++ == 0) first_empty_ = cells.line();
             return true;
@@ -190,8 +177,7 @@ bool RowReader::is_left_out(const Cells& cells) {
 
 void RowReader::check_order(const Cells& cells, double time) const {
     if (time > last_) return;
-    const std::vector<std::size_t> from = (*this)[has(Column::frame) ? Column::frame : Column::t]->columns();
-    cells.fail(from.empty() ? Cells::kNoColumn : from.front(),
+    cells.fail(place(has(Column::frame) ? Column::frame : Column::t),
                time_word() + " does not come after " + format_double(last_) +
                    " of the row before; sort the rows and remove doubles" +
                    (time == last_ && !has(Column::frame) ? rounded_time_hint(time) : "") + order_hint);
@@ -206,7 +192,7 @@ bool RowReader::add(const Cells& cells) {
 bool RowReader::add(const Cells& cells, std::size_t group) {
     at_ = group;
     // Of a step in which nobody of a kind is there, the time alone.
-    if (groups_.size() > 1 && has(Column::id) && cells.is_empty((*this)[Column::id]->columns().front())) return false;
+    if (groups_.size() > 1 && has(Column::id) && cells.is_empty(place(Column::id))) return false;
     if (is_left_out(cells)) return false;
     const std::string_view id = identifier(cells);
     const double time = when(cells);
@@ -255,10 +241,10 @@ TrackFile RowReader::finish() {
                " of track " + in_quotes(track.id) + " stands already in line ";
     };
     out.tracks = !out.alone && out.has_times ? tracks_.take_sorted(twice, true) : tracks_.take();
-    if (const std::size_t repeated = tracks_.repeated(); repeated > 0) {
-        out.warnings.push_back({counted(repeated, "row repeats another", "rows repeat others") + " and count once", "",
-                                tracks_.first_repeated()});
-    }
+    const auto tell = [&out](std::size_t count, const char* one, const char* several, const char* rest, int line = 0) {
+        if (count > 0) out.warnings.push_back({counted(count, one, several) + rest, "", line});
+    };
+    tell(tracks_.repeated(), "row repeats another", "rows repeat others", " and count once", tracks_.first_repeated());
     if (!out.has_times) {
         for (Track& track : out.tracks) {
             for (std::size_t i = 0; i < track.points.size(); ++i) track.points[i].frame = static_cast<double>(i);
@@ -266,18 +252,10 @@ TrackFile RowReader::finish() {
     }
     out.spent = tracks_.take_spent();
     tell_details(out);
-    if (lost_ > 0) {
-        out.warnings.push_back({counted(lost_, "row is", "rows are") + " marked as lost or not active and left out"});
-    }
-    if (riding_ > 0) {
-        out.warnings.push_back(
-            {counted(riding_, "row of somebody who rides", "rows of those who ride") + " in a vehicle are left out"});
-    }
-    if (empty_ > 0) {
-        out.warnings.push_back({counted(empty_, "row has no place and is", "rows have no place and are") +
-                                    " left out; fill x and y in if they count",
-                                "", first_empty_});
-    }
+    tell(lost_, "row is", "rows are", " marked as lost or not active and left out");
+    tell(riding_, "row of somebody who rides", "rows of those who ride", " in a vehicle are left out");
+    tell(empty_, "row has no place and is", "rows have no place and are", " left out; fill x and y in if they count",
+         first_empty_);
     return out;
 }
 

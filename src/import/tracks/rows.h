@@ -30,11 +30,17 @@ class Cells {
     virtual int line() const = 0;                             ///< or row, from 1
     virtual std::string place(std::size_t column) const = 0;  ///< of the cell: "line 3, column 2 (y)"
 
-    static constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);  ///< the place is the row
+    static constexpr std::size_t kNoColumn = ColumnFormula::kNone;  ///< the place is the row
 
     /// Throws InputError.
     [[noreturn]] void fail(std::size_t column, const std::string& message) const {
         throw InputError(file_, place(column), message);
+    }
+    /// What a cell names; `what` says what for a message: "the name". Throws InputError if it is no text.
+    std::string_view name_in(std::size_t column, const char* what) const {
+        const std::string_view name = text(column);
+        if (!is_utf8(name)) fail(column, std::string(what) + " is not UTF-8 text; save the file as UTF-8");
+        return name;
     }
 
   protected:
@@ -94,6 +100,8 @@ class RowReader {
 
   private:
     bool has(Column column) const { return (*this)[column].has_value(); }
+    /// The first column that one is made of.
+    std::size_t place(Column column) const { return has(column) ? (*this)[column]->first_column() : Cells::kNoColumn; }
     bool has_times() const { return has(Column::t) || has(Column::frame); }
     bool is_left_out(const Cells& cells);
     double value(const Cells& cells, Column column, double largest) const;

@@ -126,9 +126,8 @@ class Judge {
     std::string_view label(const Track& track) const {
         if (!track.label.empty()) return track.label;
         constexpr double kShortestCar = 2;  // metres
-        const int detail = track.points.front().detail;
-        if (detail > 0 && file_.details[static_cast<std::size_t>(detail) - 1].length * scale_.metres > kShortestCar)
-            return "vehicle";
+        const PointDetail* const detail = file_.detail_of(track.points.front());
+        if (detail && detail->length * scale_.metres > kShortestCar) return "vehicle";
         return road_user(file_.id_column) ? std::string_view(file_.id_column) : std::string_view();
     }
 
@@ -144,9 +143,7 @@ class Judge {
         double share = 0;    ///< of the time somebody makes headway
     };
     std::optional<Median> median_of_all() const {
-        std::size_t points = 0;
-        for (const Track& track : file_.tracks) points += track.points.size();
-        const std::size_t every = points / kMostSpeeds + 1;
+        const std::size_t every = file_.point_count() / kMostSpeeds + 1;
         std::vector<Median> speeds;
         std::size_t at = 0, looked_at = 0, moving = 0;
         for (const Track& track : file_.tracks) {
@@ -220,28 +217,24 @@ class Judge {
         };
         std::string out;
         const auto add = [&out](const std::string& text) { out += (out.empty() ? ": if " : ", if ") + text; };
-        for (const auto& [factor, text] :
-             std::initializer_list<std::pair<double, const char*>>{{0.01, "places are in cm, give unit cm"},
-                                                                   {0.001, "places are in mm, give unit 0.001"},
-                                                                   {0.3048, "places are in feet, give unit 0.3048"},
-                                                                   {1000, "places are in km, give unit 1000"}}) {
-            if (walks(factor)) add(text);
+        const std::string time = file_.time_column.empty() ? "t" : file_.time_column;
+        const auto when = [&](const char* how) { return file_.timed ? "columns t=" + time + how : std::string("dt"); };
+        for (const auto& [factor, unit, remedy] : std::initializer_list<std::tuple<double, const char*, std::string>>{
+                 {0.01, "places are in cm", "unit cm"},
+                 {0.001, "places are in mm", "unit 0.001"},
+                 {0.3048, "places are in feet", "unit 0.3048"},
+                 {1000, "places are in km", "unit 1000"},
+                 {1e3, "times are in ms", when("/1000")},
+                 {1e6, "times are in us", when("/1000000")},
+                 {1e9, "times are in ns", when("/1000000000")},
+                 {1.0 / 60, "times are in minutes", when("*60")},
+                 {1.0 / 3600, "times are in hours", when("*3600")}}) {
+            if (walks(factor)) add(unit + (", give " + remedy));
         }
         if (median_ > kFastestPerson) add("places are in pixels, give unit (metres a pixel)");
         constexpr double kDegree = 111'000;  // metres
         if (walks(kDegree) || (is_on_globe() && median_ < kSlowMedian))
             add("places are degrees, project them to metres first");
-        const std::string time = file_.time_column.empty() ? "t" : file_.time_column;
-        const char* const columns = "columns t=";
-        for (const auto& [factor, text, how] : std::initializer_list<std::tuple<double, const char*, const char*>>{
-                 {1e3, "times are in ms", "/1000"},
-                 {1e6, "times are in us", "/1000000"},
-                 {1e9, "times are in ns", "/1000000000"},
-                 {1.0 / 60, "times are in minutes", "*60"},
-                 {1.0 / 3600, "times are in hours", "*3600"}}) {
-            if (!walks(factor)) continue;
-            add(std::string(text) + ", give " + (file_.timed ? columns + time + how : std::string("dt")));
-        }
         const bool counts = file_.timed && median_ < kOfPeople && has_whole_times();
         if (counts) add("times count frames, give columns frame=" + time + " and fps");
         return out;
@@ -295,9 +288,7 @@ class Judge {
     /// The median of all rows, metres.
     double noise_of_file() {
         if (!noise_of_file_) {
-            std::size_t rows = 0;
-            for (const Track& track : file_.tracks) rows += track.points.size();
-            const std::size_t every = rows / kMostSpeeds + 1;
+            const std::size_t every = file_.point_count() / kMostSpeeds + 1;
             off_line_.clear();
             for (const Track& track : file_.tracks) {
                 for (std::size_t i = 1; i + 1 < track.points.size(); i += every)
@@ -568,58 +559,54 @@ class Judge {
 
     void tell() {
         std::vector<std::pair<double, ImportWarning>> found;
-        const char* const remedy = "; give keep_jumps if that is right";
         const auto track = [](const Worst& worst) { return "track " + in_quotes(worst.track->id); };
+        const auto far = [this](const Worst& worst) { return brief(metres(worst.from, worst.to)) + " m"; };
+        const auto step = [&](const Worst& worst) {
+            return " faster than its class can be, the worst " + far(worst) + " in " +
+                   brief(seconds(worst.from, worst.to)) + " s (" + brief(speed(worst.from, worst.to)) + " m/s), " +
+                   track(worst);
+        };
+        const char* const remedy = "; give keep_jumps if that is right";
+        const auto find = [&](const Worst& worst, const std::string& text, const char* kept) {
+            const std::string done = scale_.keeps_jumps ? kept : "tracks are split there";
+            found.push_back({worst.by, {text + ": " + done + remedy, "keep_jumps", worst.to.line}});
+        };
         if (jumps_.count > 0) {
-            const double length = metres(jumps_.from, jumps_.to), time = seconds(jumps_.from, jumps_.to);
-            found.push_back(
-                {jumps_.by,
-                 {counted(jumps_.count, "jump is", "jumps are") + " faster than its class can be, the worst " +
-                      brief(length) + " m in " + brief(time) + " s (" + brief(length / time) + " m/s), " +
-                      track(jumps_) + " to " + place_words(jumps_.to) + ": " +
-                      (scale_.keeps_jumps ? "they are kept" : "tracks are split there") + remedy,
-                  "keep_jumps", jumps_.to.line}});
+            find(jumps_, counted(jumps_.count, "jump is", "jumps are") + step(jumps_) + " to " + place_words(jumps_.to),
+                 "they are kept");
         }
         if (fast_.count > 0) {
-            const double length = metres(fast_.from, fast_.to), time = seconds(fast_.from, fast_.to);
             found.push_back({0,
-                             {counted(fast_.count, "step is", "steps are") +
-                                  " faster than its class can be, the worst " + brief(length) + " m in " + brief(time) +
-                                  " s (" + brief(length / time) + " m/s), " + track(fast_) +
-                                  ", but the way goes on from there, as in noise or behind a tracker "
-                                  "that catches up: conflicts that rest on " +
+                             {counted(fast_.count, "step is", "steps are") + step(fast_) +
+                                  ", but the way goes on from there, as in noise or behind a tracker that catches up: "
+                                  "conflicts that rest on " +
                                   (fast_.count == 1 ? "it" : "them") + " are marked",
                               "", fast_.to.line}});
         }
         if (off_.count > 0) {
-            found.push_back(
-                {off_.by,
-                 {counted(left_out_, "row is", "rows are") +
-                      " left out, as nobody is there: who is lost is "
-                      "written so, or a point is off, the farthest " +
-                      brief(metres(off_.from, off_.to)) + " m, " + track(off_) + " at " + place_words(off_.to) + remedy,
-                  "keep_jumps", off_.to.line}});
+            found.push_back({off_.by,
+                             {counted(left_out_, "row is", "rows are") +
+                                  " left out, as nobody is there: who is lost is written so, or a point is off, the "
+                                  "farthest " +
+                                  far(off_) + ", " + track(off_) + " at " + place_words(off_.to) + remedy,
+                              "keep_jumps", off_.to.line}});
         }
         if (pauses_.count > 0) {
             constexpr double kElsewhere = 1;  // metres
-            const bool far = metres(pauses_.from, pauses_.to) > kElsewhere;
-            found.push_back(
-                {pauses_.by,
-                 {counted(pauses_.count, "pause is", "pauses are") + " longer than " + brief(longest_pause_) +
-                      " s, the longest " + brief(seconds(pauses_.from, pauses_.to)) + " s, " + track(pauses_) +
-                      ", which goes on " + brief(metres(pauses_.from, pauses_.to)) + " m off" +
-                      (far ? " (is the id used again, or does the clock step?): " : ": ") +
-                      (scale_.keeps_jumps ? "they are filled" : "tracks are split there") + remedy,
-                  "keep_jumps", pauses_.to.line}});
+            find(pauses_,
+                 counted(pauses_.count, "pause is", "pauses are") + " longer than " + brief(longest_pause_) +
+                     " s, the longest " + brief(seconds(pauses_.from, pauses_.to)) + " s, " + track(pauses_) +
+                     ", which goes on " + far(pauses_) + " off" +
+                     (metres(pauses_.from, pauses_.to) > kElsewhere ? " (is the id used again, or does the clock step?)"
+                                                                    : ""),
+                 "they are filled");
         }
         if (clock_.count > 0) {
-            found.push_back(
-                {clock_.by,
-                 {"the clock steps by " + brief(clock_.by * longest_pause_) + " s for all at once" +
-                      (holes_.size() > 1 ? ", and " + counted(holes_.size() - 1, "time", "times") + " more" : "") +
-                      ", " + track(clock_) + " among them (did the recording stop, or was the clock set?): " +
-                      (scale_.keeps_jumps ? "that is filled" : "tracks are split there") + remedy,
-                  "keep_jumps", clock_.to.line}});
+            find(clock_,
+                 "the clock steps by " + brief(clock_.by * longest_pause_) + " s for all at once" +
+                     (holes_.size() > 1 ? ", and " + counted(holes_.size() - 1, "time", "times") + " more" : "") +
+                     ", " + track(clock_) + " among them (did the recording stop, or was the clock set?)",
+                 "that is filled");
         }
         std::ranges::stable_sort(found, std::greater<>{}, &std::pair<double, ImportWarning>::first);
         for (auto& [by, finding] : found) out_.findings.push_back(std::move(finding));

@@ -195,10 +195,6 @@ void TableColumns::choose_columns() {
     }
     if (rows_[Column::t]) rows_[Column::frame].reset();
     date = rows_[Column::t] ? column_with("date") : std::nullopt;
-    for (const char* name : {"z", "posz", "zpos", "positionz", "zposition", "coordz", "zcoord"}) {
-        const bool has_places = rows_[Column::x]->only_column() && rows_[Column::y]->only_column();
-        if (!height && has_places && header_line > 0 && !options.columns) height = column_with(name);
-    }
     find_scopes();
 }
 
@@ -221,8 +217,8 @@ void TableColumns::take_stamp() {
 /// What makes no body, and keeps nobody apart, is a column like any other.
 void TableColumns::settle_bodies() {
     const auto column_words = [this](Column column) {
-        const std::vector<std::size_t> from = rows_[column]->columns();
-        return from.empty() ? "the option columns" : in_quotes(names[from.front()]);
+        const std::size_t at = rows_[column]->first_column();
+        return at == ColumnFormula::kNone ? "the option columns" : in_quotes(names[at]);
     };
     const bool has_sizes = rows_[Column::length] && rows_[Column::width] && !rows_[Column::r];
     if (has_sizes) {
@@ -236,14 +232,17 @@ void TableColumns::settle_bodies() {
     leave(Column::heading, !has_sizes && !rows_[Column::label] && !options.body);
     if (rows_[Column::heading]) rows_.heading_column = "the column " + column_words(Column::heading);
     rows_.guesses_angles = rows_.guesses_angles && rows_[Column::heading];
+    const auto is_as_it_stands = [this](Column column) { return rows_[column] && rows_[column]->only_column(); };
+    if (rows_[Column::z] && is_as_it_stands(Column::x) && is_as_it_stands(Column::y) && header_line > 0 &&
+        !options.columns)
+        height = rows_[Column::z]->first_column();
     leave(Column::floor, !rows_[Column::id]);
     // Where y points up, z is the ground.
     const auto is_used = [&](Column column) {
-        if (!rows_[column] || !rows_[Column::z]) return false;
-        const std::vector<std::size_t> of = rows_[column]->columns(), heights = rows_[Column::z]->columns();
-        return !heights.empty() && std::ranges::find(of, heights.front()) != of.end();
+        const std::vector<std::size_t> of = rows_[column] ? rows_[column]->columns() : std::vector<std::size_t>();
+        return rows_[Column::z] && std::ranges::count(of, rows_[Column::z]->first_column()) > 0;
     };
-    leave(Column::z, !rows_.has_ids() || rows_[Column::floor] || is_used(Column::x) || is_used(Column::y));
+    leave(Column::z, is_used(Column::x) || is_used(Column::y));
 }
 
 void TableColumns::find_scopes() {

@@ -22,8 +22,7 @@ namespace mobbscope {
 
 namespace {
 
-constexpr std::size_t kRowsOfHeight = 10'000;  // that tell which way is up
-constexpr std::size_t kMostColumns = 1024;     // a line of a million is refused early
+constexpr std::size_t kMostColumns = 1024;  // a line of a million is refused early
 constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
 // Heads are so high, in metres; standing children and adults on stairs included.
 constexpr double kLowestHead = 0.8;
@@ -52,6 +51,25 @@ bool is_kitti(FirstRows rows) {
     });
 }
 
+/// Boxes of people in frames of a video.
+bool is_mot(FirstRows rows) {
+    const auto is_whole = [](double number) { return number == std::floor(number); };
+    return std::ranges::all_of(rows, [&is_whole](const std::vector<double>& row) {
+        const bool is_box = (row[4] > 0 && row[5] > 0) || (row[4] == -1 && row[5] == -1);
+        return is_box && row[0] >= 0 && is_whole(row[0]) && is_whole(row[1]);
+    });
+}
+
+/// Some of which have a place.
+bool is_mot_on_ground(FirstRows rows) {
+    return is_mot(rows) &&
+           std::ranges::any_of(rows, [](const std::vector<double>& row) { return row[7] != -1 || row[8] != -1; });
+}
+
+constexpr std::string_view kMotBoxes =
+    "is of the MOT Challenge, with boxes in an image and no places on the ground: project the middle of each box's "
+    "lower edge onto it and write id,t,x,y as CSV; or, for the boxes' centres in pixels, name the columns in a first "
+    "line: frame,id,bb_left,bb_top,bb_width,bb_height and the others, such as conf";
 constexpr std::string_view kMetresAndPoints = "metres, 2.5 points a second";
 constexpr RowFormat kRowFormats[] = {
     {"obsmat",
@@ -104,6 +122,18 @@ constexpr RowFormat kRowFormats[] = {
      {"KITTI poses (`.txt`)", "a matrix of twelve numbers: right, down and forward are the fourth, eighth and twelfth",
       "metres; one robot, 10 poses a second"},
      is_kitti},
+    {"mot", "frame id _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
+    {"mot", "frame id _ _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
+    {"mot",
+     "frame id _ _ _ _ _ x y z",
+     0,
+     false,
+     "",
+     "",
+     {"MOT Challenge (`.txt`)", "frame,id,left,top,width,height,conf,x,y,z, of which x, y and z are the place",
+      "metres; give `--fps`"},
+     is_mot_on_ground,
+     ','},
 };
 constexpr const RowFormat& kTrajnet = kRowFormats[1];
 constexpr const RowFormat& kPetrack = kRowFormats[2];
@@ -128,14 +158,92 @@ bool is_vissim_comment(std::string_view line) { return line.starts_with('*') || 
 
 bool is_gap(char c) { return c == ' ' || c == '\t'; }
 
+/// Whether a field in quotes goes on behind a text, `is_open`: and comes from before it.
+bool is_in_quotes(std::string_view text, char separator, bool is_open) {
+    bool may_begin = true;  // of a closing quote: goes on behind two
+    for (const char c : text) {
+        const bool is_quote = c == '"';
+        if (is_quote && (is_open || may_begin)) {
+            is_open = !is_open;
+            may_begin = true;
+        } else if (!is_open) {
+            may_begin = c == separator || (is_gap(c) && (may_begin || separator == ' '));
+        }
+    }
+    return is_open;
+}
+
 struct Field {
     std::string_view text;
     double number;  ///< of most numbers; kUnread: it is read when it is asked for
 };
 
+/// From the least to the most of some numbers.
+struct Extent {
+    double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+
+    void take(double number) {
+        least = std::min(least, number);
+        most = std::max(most, number);
+    }
+    double length() const { return most - least; }
+};
+
 std::size_t numbers_in(std::span<const Field> fields) {
     return static_cast<std::size_t>(
         std::ranges::count_if(fields, [](const Field& field) { return parse_double(field.text).has_value(); }));
+}
+
+/// What stands in the fields of a line.
+struct FieldCounts {
+    std::size_t fields = 0;
+    std::size_t numbers = 0;
+    std::size_t known = 0;  ///< names of columns
+};
+
+FieldCounts counts_of(std::string_view line, char separator) {
+    FieldCounts out;
+    for (; !line.empty(); ++out.fields) {
+        const std::string_view field = take_word(line, separator);
+        out.numbers += parse_double(field).has_value();
+        out.known += known_column(field).has_value();
+    }
+    return out;
+}
+
+/// Those at the beginning of a text, each with so many numbers: enough to tell poses from other rows.
+std::vector<std::vector<double>> first_rows(std::string_view text, char separator, std::size_t count) {
+    constexpr std::size_t kLookedAt = 10;
+    std::vector<std::vector<double>> out;
+    for (std::string_view line = take_row(text); !line.empty() && out.size() < kLookedAt; line = take_row(text)) {
+        std::vector<double>& row = out.emplace_back();
+        while (!line.empty()) row.push_back(parse_double(take_word(line, separator)).value_or(kUnread));
+        row.resize(count, kUnread);
+    }
+    return out;
+}
+
+/// What rows are of, of which one is at hand and the text begins with the first; null: none that is known.
+const RowFormat* row_format(std::string_view line, std::string_view text) {
+    const char separator = separator_of(line) == ',' ? ',' : ' ';
+    const FieldCounts row = counts_of(line, separator);
+    const RowFormat* out = nullptr;
+    for (const RowFormat& format : kRowFormats) {
+        const bool has_label = &format == &kSdd && line.ends_with('"');
+        const auto columns = static_cast<std::size_t>(std::ranges::count(format.columns, ' ')) + 1;
+        const bool fits =
+            format.separator == separator && columns == row.fields && row.numbers + (has_label ? 1 : 0) == row.fields;
+        if (fits && (!format.holds || format.holds(first_rows(text, separator, columns)))) out = &format;
+    }
+    return out;
+}
+
+/// Rows between commas without a header, nor a comment that may be one.
+bool is_row_format_of_commas(std::string_view text) {
+    std::string_view rest = text;
+    const std::string_view line = take_row(rest);
+    const RowFormat* const format = text.starts_with(line) ? row_format(line, text) : nullptr;
+    return format && format->separator == ',';
 }
 
 /// One pass over the text of a file, line by line.
@@ -153,9 +261,9 @@ class TextRows final : public Cells {
         const bool at_row = read_header();
         columns_.choose_groups();
         rows_.order_hint = columns_.order_hint();
-        if (at_row || lines_.next()) {
+        if (at_row || next_row()) {
             if (!take_units()) add_row();
-            while (lines_.next()) add_row();
+            while (next_row()) add_row();
         }
         if (rows_.empty())
             throw InputError(file_, at_line(lines_.number()), "there is no row after the header; add samples");
@@ -168,8 +276,8 @@ class TextRows final : public Cells {
         }
         if (const std::optional<ColumnFormula>& id = rows_[Column::id])
             out.id_column = columns_.names[*id->only_column()];
-        if (const auto time = out.timed ? rows_[Column::t]->columns() : std::vector<std::size_t>(); !time.empty())
-            out.time_column = columns_.names[time.front()];
+        if (const std::size_t time = out.timed ? rows_[Column::t]->first_column() : kNoColumn; time != kNoColumn)
+            out.time_column = columns_.names[time];
         out.header_line = columns_.header_line;
         out.fps_is_rate = rows_[Column::frame].has_value();
         if (out.fps_is_rate) out.rate = remarks_.rate();
@@ -324,6 +432,23 @@ class TextRows final : public Cells {
     /// Blanks at the ends part nothing, but where tabs part fields these may be empty.
     std::string_view whole_line() const { return separator_ == '\t' ? lines_.whole_line() : lines_.line(); }
 
+    /// With the lines that fields in quotes go over.
+    bool next_row() {
+        if (!lines_.next()) return false;
+        take_open_quotes();
+        return true;
+    }
+    void take_open_quotes() {
+        std::size_t from = 0;
+        bool is_open = false;
+        do {
+            const std::string_view added = lines_.whole_line().substr(from);
+            if (!is_open && added.find('"') == std::string_view::npos) return;
+            is_open = is_in_quotes(added, separator_, is_open);
+            from += added.size();
+        } while (is_open && lines_.join());
+    }
+
     void split_row() {
         constexpr std::size_t kOfSpot = 2;
         const std::size_t count = columns_.names.size() - (columns_.spot ? kOfSpot : 0);
@@ -333,11 +458,7 @@ class TextRows final : public Cells {
                  "; give every row all of them");
         if (!columns_.spot) return;
         std::string_view rest = trimmed(fields_[*columns_.spot].text);
-        for (std::size_t i = 0; i < kOfSpot; ++i) {
-            const std::string_view word = rest.substr(0, std::min(rest.find(' '), rest.size()));
-            fields_.push_back({word, kUnread});
-            rest = trimmed(rest.substr(word.size()));
-        }
+        for (std::size_t i = 0; i < kOfSpot; ++i) fields_.push_back({take_word(rest, ' '), kUnread});
     }
 
     bool add_row() {
@@ -348,47 +469,33 @@ class TextRows final : public Cells {
             if (rows_.empty()) first_scope_ = scope;
             needs_scopes_ = !columns_.is_weak_scope && scope != first_scope_;
         }
-        if (!rows_.add(*this)) return false;
-        if (columns_.height && looked_at_ < kRowsOfHeight) look_at_height();
-        return true;
+        return rows_.add(*this);
     }
 
-    /// How far places go in x, y and z: where y points up they go in x and z.
-    void look_at_height() {
-        ++looked_at_;
-        for (std::size_t i = 0; i < spread_.size(); ++i) {
-            const std::size_t column =
-                i == 2 ? *columns_.height : *rows_[i == 0 ? Column::x : Column::y]->only_column();
-            std::string text(fields_[column].text);
-            if (separator_ != ',') std::ranges::replace(text, ',', '.');
-            const std::optional<double> at = parse_double(text);
-            if (!at) continue;
-            Spread& of = spread_[i];
-            of.changes += *at != of.last;
-            of = {std::min(of.least, *at), std::max(of.most, *at), *at, of.changes};
-        }
-    }
-    /// What is said then; heights are no floors.
+    /// Where y points up places go in x and z, which is said; such heights are no floors.
     void tell_height(TrackFile& file) {
         constexpr std::size_t kFewest = 10;  // places
-        constexpr double kFlat = 0.01, kGoes = 0.25, kNever = std::numeric_limits<double>::max();
-        const auto length = [](const Spread& of) { return of.most - of.least; };
-        const auto& [x, y, z] = spread_;
-        if (z.changes < kFewest || length(y) > kFlat * length(z) || length(z) < kGoes * length(x)) return;
-        // People on different floors each stay on theirs.
-        const double least_climb = kGoes * length(z);
-        const auto climbs = [&](const Track& track) {
-            double least = kNever, most = -kNever;
+        constexpr double kFlat = 0.01, kGoes = 0.25;
+        Extent x, y, z;
+        double highest_climb = 0, last = kUnread;
+        std::size_t changes = 0;
+        for (const Track& track : file.tracks) {
+            Extent climb;
             for (const TrackPoint& point : track.points) {
-                const double at =
-                    point.detail > 0 ? file.details[static_cast<std::size_t>(point.detail) - 1].z : kNever;
-                if (!(std::abs(at) < kNever)) continue;
-                least = std::min(least, at);
-                most = std::max(most, at);
+                const PointDetail* const detail = file.detail_of(point);
+                if (!detail || std::isnan(detail->z)) continue;
+                changes += std::exchange(last, detail->z) != detail->z;
+                x.take(point.x);
+                y.take(point.y);
+                z.take(detail->z);
+                climb.take(detail->z);
             }
-            return most - least > least_climb;
-        };
-        if (rows_[Column::z] && std::ranges::none_of(file.tracks, climbs)) return;
+            highest_climb = std::max(highest_climb, climb.length());
+        }
+        // People on different floors each stay on theirs.
+        if (changes < kFewest || y.length() > kFlat * z.length() || z.length() < kGoes * x.length() ||
+            highest_climb <= kGoes * z.length())
+            return;
         const std::string &flat = columns_.names[*rows_[Column::y]->only_column()],
                           &ground = columns_.names[*columns_.height];
         for (PointDetail& detail : file.details) detail.z = PointDetail::kUntold;
@@ -400,7 +507,7 @@ class TextRows final : public Cells {
 
     /// Times that count from 1970 tell their unit by their size: seconds are below 1e11 until the year 5138.
     void scale_time() {
-        const std::size_t column = rows_[Column::t]->columns().front();
+        const std::size_t column = rows_[Column::t]->first_column();
         if (!parse_double(fields_[column].text)) return;
         constexpr double kOfMilliseconds = 1e11;
         constexpr double kThousand = 1000;
@@ -450,6 +557,7 @@ class TextRows final : public Cells {
                                  "; give a header such as t,x,y,r");
         }
         separator_ = separator_of(whole_line());
+        take_open_quotes();
         columns_.header_line = lines_.number();
         split(whole_line(), kMostColumns);
         const bool in_comment = is_row() && comment_line > 0;
@@ -489,6 +597,8 @@ class TextRows final : public Cells {
     TrackFile finished() {
         TrackFile out = rows_.finish();
         if (columns_.height) tell_height(out);
+        // What keeps nobody apart is a column like any other.
+        if (!rows_.has_ids() || rows_[Column::floor]) rows_[Column::z].reset();
         out.others = columns_.tell_ignored();
         if (decimal_commas_)
             columns_.warnings.push_back({"commas within numbers are read as decimal points: 0,5 is a half"});
@@ -549,25 +659,6 @@ class TextRows final : public Cells {
         }
     }
 
-    /// Those at the beginning that have so many numbers, enough to tell poses from other rows.
-    std::vector<std::vector<double>> first_rows(std::size_t count) const {
-        constexpr std::size_t kLookedAt = 10, kBytes = 1 << 16;
-        std::vector<std::vector<double>> out;
-        const std::string begin = input_.beginning(kBytes);
-        std::string_view text = begin;
-        for (std::string_view line = take_row(text); !line.empty() && out.size() < kLookedAt; line = take_row(text)) {
-            std::vector<double> row;
-            for (; !line.empty(); line = trimmed(line)) {
-                const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-                row.push_back(parse_double(line.substr(0, end)).value_or(kUnread));
-                line.remove_prefix(end);
-            }
-            row.resize(count, kUnread);
-            out.push_back(std::move(row));
-        }
-        return out;
-    }
-
     /// Of KITTI the ground is right and forward of the camera; where it only goes up and down, those axes were meant
     /// otherwise.
     static void find_ground(TrackFile& out) {
@@ -576,9 +667,7 @@ class TextRows final : public Cells {
             const auto [least, most] = std::ranges::minmax_element(points, {}, along);
             return along(*least) != along(*most);
         };
-        const auto down = [&out](const TrackPoint& point) {
-            return out.details[static_cast<std::size_t>(point.detail) - 1].z;
-        };
+        const auto down = [&out](const TrackPoint& point) { return out.detail_of(point)->z; };
         const bool is_upright = !moves([](const TrackPoint& point) { return point.y; }) && moves(down);
         for (TrackPoint& point : points) {
             if (is_upright) point.y = down(point);
@@ -595,26 +684,21 @@ class TextRows final : public Cells {
     void choose_format() {
         format_ = &kPetrack;
         if (columns_.names.empty()) {
-            split(lines_.line(), kMostColumns);
-            const std::size_t numbers = numbers_in(fields_);
-            const std::size_t count = fields_.size();
-            const bool labelled = lines_.line().ends_with('"');
-            format_ = nullptr;
-            for (const RowFormat& format : kRowFormats) {
-                const auto columns = static_cast<std::size_t>(std::ranges::count(format.columns, ' ')) + 1;
-                const bool fits = columns == count && numbers + (&format == &kSdd && labelled ? 1 : 0) == count;
-                if (fits && (!format.holds || format.holds(first_rows(count)))) format_ = &format;
-            }
+            constexpr std::size_t kBytes = 1 << 16;
+            format_ = row_format(lines_.line(), input_.beginning(kBytes));
             if (!format_) {
-                const std::string columns = counted(count, "column", "columns");
+                const FieldCounts row = counts_of(lines_.line(), ' ');
+                const std::string columns = counted(row.fields, "column", "columns");
                 fail("is not a row of a trajectory file (" +
-                     (numbers == count ? "numbers in " + columns : columns + ", not all of them numbers") + "); " +
-                     known_formats());
+                     (row.numbers == row.fields ? "numbers in " + columns : columns + ", not all of them numbers") +
+                     "); " + known_formats());
             }
+            if (!format_->refusal.empty()) fail(std::string(format_->refusal));
             // Who tells a rate is not TrajNet, where the camera's does not matter.
             const bool is_flat = format_ == &kTrajnet && remarks_.rate();
             if (is_flat) format_ = &kPetrack;
             name_columns(is_flat ? kIdFirst : format_->columns, "the rows before it have");
+            separator_ = format_->separator;
         }
         const bool of_robot = format_->name == "poses";
         if (of_robot) {
@@ -677,8 +761,9 @@ class TextRows final : public Cells {
 
     void tell_rate(TrackFile& out) const {
         if (out.timed) return;
-        out.rate = remarks_.rate().value_or(format_->rate);
-        if (remarks_.rate()) return;
+        out.fps_is_rate = format_->rate == 0 && !remarks_.rate();
+        out.rate = out.fps_is_rate ? std::nullopt : std::optional(remarks_.rate().value_or(format_->rate));
+        if (out.fps_is_rate || remarks_.rate()) return;
         out.rate_of_steps = format_->rate_of_steps;
         // ETH and UCY: every tenth frame of a camera.
         if (out.rate_of_steps) out.least_step = 10;
@@ -740,12 +825,6 @@ class TextRows final : public Cells {
     std::string first_scope_;
 
     // Of rows of numbers alone:
-    struct Spread {
-        double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest(), last = kUnread;
-        std::size_t changes = 0;  ///< rows whose place is another than that of the row before
-    };
-    std::array<Spread, 3> spread_;  ///< of x, y and z
-    std::size_t looked_at_ = 0;     ///< rows, for that
     const RowFormat* format_ = nullptr;
     std::optional<std::size_t> heads_;  ///< the column of their heights
     std::vector<double> heights_;
@@ -758,34 +837,11 @@ class TextRows final : public Cells {
     double length_below_ = 0;      ///< of the way from there to here
 };
 
-/// What stands in the fields of a line.
-struct FieldCounts {
-    std::size_t fields = 0;
-    std::size_t numbers = 0;
-    std::size_t known = 0;  ///< names of columns
-};
-
-FieldCounts counts_of(std::string_view line, char separator) {
-    FieldCounts out;
-    for (std::string_view rest = line; !rest.empty(); ++out.fields) {
-        // Words in quotes may hold what parts others.
-        const std::size_t from = rest.starts_with('"') ? std::min(rest.find('"', 1), rest.size()) : 0;
-        const std::size_t at =
-            std::min(separator == ' ' ? rest.find_first_of(" \t", from) : rest.find(separator, from), rest.size());
-        std::string_view field = trimmed(rest.substr(0, at));
-        if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-        out.numbers += parse_double(field).has_value();
-        out.known += known_column(field).has_value();
-        rest.remove_prefix(std::min(at + 1, rest.size()));
-        if (separator == ' ') rest = trimmed(rest);
-    }
-    return out;
-}
-
 }  // namespace
 
 bool looks_like_table(std::string_view text) {
     text = without_mark(text);
+    if (is_row_format_of_commas(text)) return false;
     std::string_view line = take_row(text);
     while (is_vissim_comment(line)) line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
@@ -804,6 +860,7 @@ bool looks_like_table(std::string_view text) {
 
 bool looks_like_text_tracks(std::string_view text) {
     constexpr std::size_t kFewest = 3;  // columns: what lacks one is told so
+    if (is_row_format_of_commas(without_mark(text))) return true;
     const FieldCounts row = counts_of(take_row(text), ' ');
     return row.fields >= kFewest && row.numbers + 1 >= row.fields;
 }

@@ -22,15 +22,11 @@ struct BodySize {
     bool varies = false;
 };
 
-const PointDetail* detail_of(const TrackFile& file, const TrackPoint& point) {
-    return point.detail > 0 ? &file.details[static_cast<std::size_t>(point.detail) - 1] : nullptr;
-}
-
 std::optional<BodySize> size_said(const TrackFile& file, const Track& track, double metres) {
     if (!file.has_sizes) return std::nullopt;
     std::vector<double> lengths, widths;
     for (const TrackPoint& point : track.points) {
-        const PointDetail* const detail = detail_of(file, point);
+        const PointDetail* const detail = file.detail_of(point);
         if (!detail || detail->length == 0 || detail->width == 0) continue;
         lengths.push_back(detail->length * metres);
         widths.push_back(detail->width * metres);
@@ -150,7 +146,7 @@ std::vector<double> headings_at(const TrackFile& file, std::span<const TrackPoin
     std::vector<double> out;
     if (file.heading_column.empty()) return out;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const PointDetail* const detail = detail_of(file, points[i]);
+        const PointDetail* const detail = file.detail_of(points[i]);
         if (!detail || std::isnan(detail->heading)) {
             if (!out.empty()) out.push_back(out.back());
             continue;

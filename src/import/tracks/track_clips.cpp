@@ -91,19 +91,19 @@ int line_out_of_step(std::span<const TrackPoint> points, double step, double rou
     return points.back().line;
 }
 
-/// What tables lack that an option has to say.
+/// What a file lacks that an option has to say.
 void check_columns(const TrackFile& table, const std::string& file, const ImportOptions& options) {
-    if (table.header_line == 0) return;
-    const std::string header = at_line(table.header_line);
-    if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
-    // People have a usual radius.
-    if (!table.has_radius && !table.has_sizes && !options.radius && !options.body && table.alone)
-        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
+    const std::string header = table.header_line > 0 ? at_line(table.header_line) : "";
     if (!table.rate && !options.dt && !options.fps) {
         throw InputError(file, header,
                          "the rows have frame numbers in place of times: give fps (frames a second), or dt (seconds "
                          "from one frame to the next)");
     }
+    if (table.header_line == 0) return;
+    if (options.id && table.alone) throw InputError(file, header, "the header names no column id; leave id out");
+    // People have a usual radius.
+    if (!table.has_radius && !table.has_sizes && !options.radius && !options.body && table.alone)
+        throw InputError(file, header, "the header names no column r; add one or give radius (metres)");
     if (table.alone && table.timed && table.tracks.front().points.size() == 1 && !options.dt) {
         throw InputError(file, at_line(table.tracks.front().first_line()),
                          "one row does not tell how long it lasts; give dt (seconds)");
@@ -143,8 +143,7 @@ class TrackClipMaker {
                                                                                         std::nullopt, 0,         {}} {
         if (!file.alone) common_.t0 = clock_.t0();
         common_.warnings = file.warnings;
-        std::size_t points = 0;
-        for (const Track& track : file.tracks) points += track.points.size();
+        const std::size_t points = file.point_count();
         if (file.is_large) most_stored_ = std::numeric_limits<std::size_t>::max();
         most_made_ = std::min(most_stored_, most_made(points));
         most_filled_ = most_made_;

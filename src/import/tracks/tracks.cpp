@@ -99,4 +99,15 @@ std::string_view take_row(std::string_view& text) {
     return "";
 }
 
+std::string_view take_word(std::string_view& rest, char separator) {
+    const std::size_t from = rest.starts_with('"') ? std::min(rest.find('"', 1), rest.size()) : 0;
+    const std::size_t at =
+        std::min(separator == ' ' ? rest.find_first_of(" \t", from) : rest.find(separator, from), rest.size());
+    std::string_view field = trimmed(rest.substr(0, at));
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+    rest.remove_prefix(std::min(at + 1, rest.size()));
+    if (separator == ' ') rest = trimmed(rest);
+    return field;
+}
+
 }  // namespace mobbscope

@@ -91,6 +91,10 @@ struct TrackFile {
     std::string unit_assumption{};
 
     std::vector<PointDetail> details{};
+    /// Null: a point has none.
+    const PointDetail* detail_of(const TrackPoint& point) const {
+        return point.detail > 0 ? &details[static_cast<std::size_t>(point.detail) - 1] : nullptr;
+    }
     std::vector<std::string> floors{};  ///< names, see PointDetail::floor
     std::string body_columns{};         ///< who says sizes, for a message: "the columns 'length' and 'width'"
     std::string heading_column{};       ///< empty: there are no headings
@@ -102,6 +106,12 @@ struct TrackFile {
 
     std::vector<ImportWarning> warnings{};  ///< what was ignored
     Spent spent{};                          ///< of the budget
+
+    std::size_t point_count() const {
+        std::size_t out = 0;
+        for (const Track& track : tracks) out += track.points.size();
+        return out;
+    }
 };
 
 /// What the documents say of a format of tracks.
@@ -169,6 +179,10 @@ std::string_view without_mark(std::string_view text);
 
 /// Takes the next line off a text that is neither blank nor a comment, without the blanks at its ends; "" at the end.
 std::string_view take_row(std::string_view& text);
+
+/// Takes a field off the front of a line, up to a sign or, for ' ', any number of blanks. What is in quotes may hold
+/// what parts others.
+std::string_view take_word(std::string_view& rest, char separator);
 
 /// Whether a text begins like TrajNet++.
 bool looks_like_trajnetpp(std::string_view text);

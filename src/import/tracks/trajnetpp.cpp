@@ -21,6 +21,12 @@ class TrajnetppParser {
 
     TrackFile parse() {
         while (lines_.next()) read_line();
+        if (tracks_.empty() && predictions_ > 0) {
+            throw InputError(file_, "",
+                             "holds predictions of TrajNet++ alone, " + counted(predictions_, "point", "points") +
+                                 ": give the file with the recorded tracks that they were made from, or, to see one "
+                                 "prediction, its lines without prediction_number");
+        }
         if (tracks_.empty())
             lines_.fail(R"(the file has no track; give lines such as {"track": {"f": 0, "p": 1, "x": 0.5, "y": 2}})");
         TrackFile out;
