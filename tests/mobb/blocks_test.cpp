@@ -525,7 +525,7 @@ TEST(Blocks, BoundsHoldEveryDiskAndNoMore) {
                 most = std::max(most, beyond(samples.disk_at_end(node.first + k), center(k + 1), node.bound.radius));
             }
             EXPECT_LE(most, 1e-9 * (1 + clip->reach() * 1e-3)) << i << (linear ? " linear" : " held");
-            EXPECT_GE(most, -1e-6 * (1 + blocks.extent())) << i;
+            EXPECT_GE(most, -1e-6 * (1 + 2 * blocks.radius())) << i;
         }
     }
 }
@@ -536,7 +536,7 @@ TEST(Blocks, WindowsHoldTheirSamples) {
         const ClipPtr clip = nasty_clip(random);
         const Blocks blocks(clip);
         const int n = blocks.count();
-        const double rounding = 1e-6 * (1 + blocks.extent());
+        const double rounding = 1e-6 * (1 + 2 * blocks.radius());
         const Blocks::Rings samples = blocks.samples();
         const auto sample = [&](int i) { return Disk{samples.x[i], samples.y[i], samples.inner[i]}; };
         // How far the samples [first, last] that there are reach out of a disk, and whether there are any.
@@ -610,8 +610,8 @@ TEST(Blocks, RootsThatMoveHoldTheClip) {
                 return blocks.origin() + blocks.velocity() * (clip->time(at) - clip->duration() / 2);
             };
             const double room = 1e-9 * (1 + clip->reach());
-            EXPECT_LE(beyond(placed.disk(i), center(i), blocks.moving_radius()), room);
-            EXPECT_LE(beyond(placed.disk_at_end(i), center(i + 1), blocks.moving_radius()), room);
+            EXPECT_LE(beyond(placed.disk(i), center(i), static_cast<double>(blocks.root_radius())), room);
+            EXPECT_LE(beyond(placed.disk_at_end(i), center(i + 1), static_cast<double>(blocks.root_radius())), room);
             EXPECT_LE(beyond(placed.disk(i), blocks.origin(), blocks.radius()), room);
         }
     }
@@ -688,7 +688,7 @@ TEST(Blocks, TracesAreTheSameOnEveryInstructionSetAndCanBeWorkedOutAgain) {
                 const Separation again = separate_block(a.tree().box(event.a), b.tree().box(event.b), frame);
                 if (event.outcome == Outcome::overlap) {
                     // Apart by less than single precision can tell.
-                    EXPECT_LT(again.gap, 1e-4 * (10 + tree_a.blocks()->extent() + tree_b.blocks()->extent()));
+                    EXPECT_LT(again.gap, 1e-4 * (10 + 2 * tree_a.blocks()->radius() + 2 * tree_b.blocks()->radius()));
                     // What overlaps is looked into.
                     ASSERT_LT(step + 1, trace.size());
                     const Trace::Event next = trace[step + 1];
