@@ -84,19 +84,13 @@ std::unique_ptr<Peer> blocks_peer(const Clips& clips) {
     return own<mobb::PlacedBlocks>(blocks_of(clips), [](const auto& a, const auto& b) { return intersects(a, b); });
 }
 
-/// Where a clip is placed, as an engine has it.
+/// A clip and where it is to be placed.
 struct Place {
     const mobb::Blocks* blocks;
-    mobb::Rotation rotation;
-    glm::dvec2 translate;
-    double start;
+    mobb::Placement at;
 
-    Place(const mobb::Blocks& of, const mobb::Placement& at)
-        : blocks(&of),
-          rotation(mobb::Rotation::from_degrees(at.rotate_deg)),
-          translate(at.translate),
-          start(at.start) {}
-    mobb::PlacedBlocks placed() const { return {*blocks, rotation, translate, start}; }
+    Place(const mobb::Blocks& of, const mobb::Placement& placement) : blocks(&of), at(placement) {}
+    mobb::PlacedBlocks placed() const { return {*blocks, at}; }
 };
 /// Both clips are placed anew in each query.
 std::unique_ptr<Peer> placing_peer(const Clips& clips) {

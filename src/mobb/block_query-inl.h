@@ -477,47 +477,15 @@ inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Roo
     return traverse(related, nobody, sink);
 }
 
-/// Of some number of pairs at a time roots go first, then windows, and samples: what ends soon costs hardly a
-/// mispredicted branch.
 inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
-    std::fill_n(answers, count, false);
-    constexpr std::size_t kAtATime = 64;
-    struct Open {
-        std::size_t index;  ///< of the pair
-        RootsApart roots;
-        std::uint64_t runs;  ///< of A that may hit, as first_look says
-    } open[kAtATime];
-    for (std::size_t first = 0; first < count; first += kAtATime) {
-        const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t meeting = 0;
-        for (std::size_t i = first; i < end; ++i) {
-            // Placements lie anywhere in memory: they are fetched a few pairs ahead.
-            constexpr std::size_t kAhead = 12;
-            if (i + kAhead < count) {
-                __builtin_prefetch(pairs[i + kAhead].a);
-                __builtin_prefetch(pairs[i + kAhead].b);
-            }
-            open[meeting] = {i, RootsApart(*pairs[i].a, *pairs[i].b), 0};
-            meeting += open[meeting].roots.meet ? std::size_t{1} : std::size_t{0};
-        }
-        std::size_t undecided = 0;
-        for (std::size_t k = 0; k < meeting; ++k) {
-            const auto [i, roots, none] = open[k];
-            const auto [a, b] = pairs[i];
-            const Related related(*a, *b, roots);
-            if (!can_look(related)) [[unlikely]] {
-                answers[i] = MOBB_LANES::intersects(*a, *b, roots);
-                continue;
-            }
-            const Nearness near = first_look(related);
-            answers[i] = near.sure != 0;
-            open[undecided] = {i, roots, near.may};
-            undecided += near.undecided() ? std::size_t{1} : std::size_t{0};
-        }
-        for (std::size_t k = 0; k < undecided; ++k) {
-            const auto [a, b] = pairs[open[k].index];
-            answers[open[k].index] = any_sample_hits(Related(*a, *b, open[k].roots), open[k].runs);
-        }
+    // Placements lie anywhere in memory: they are fetched a few pairs ahead.
+    constexpr std::size_t kAhead = 12;
+    for (std::size_t i = 0; i < count; ++i) {
+        const BlocksPair& ahead = pairs[std::min(i + kAhead, count - 1)];
+        __builtin_prefetch(ahead.a);
+        __builtin_prefetch(ahead.b);
+        const RootsApart roots(*pairs[i].a, *pairs[i].b);
+        answers[i] = roots.meet && MOBB_LANES::intersects(*pairs[i].a, *pairs[i].b, roots);
     }
 }
 
