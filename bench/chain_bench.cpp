@@ -137,7 +137,7 @@ struct Queries {
         std::vector<std::vector<PlacedTree>> out;
         for (const Side& side : sides) {
             out.emplace_back();
-            const Rotation rotation = Rotation::from_degrees(side.placement.rotate_deg);
+            const Rotation rotation = side.placement.rotation();
             const Chain& chain = chains[side.chain];
             for (int k = 0; k < chain.links(); ++k) {
                 const ChainLink& link = links[side.chain][static_cast<std::size_t>(k)];

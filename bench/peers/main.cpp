@@ -75,10 +75,27 @@ std::unique_ptr<Peer> tree_peer(const Clips& clips, const mobb::FitOptions& opti
                                  [](const auto& a, const auto& b) { return query(a, b).has_value(); });
 }
 
+std::vector<std::unique_ptr<const mobb::Blocks>> blocks_of(const Clips& clips) {
+    std::vector<std::unique_ptr<const mobb::Blocks>> out;
+    for (const mobb::ClipPtr& clip : clips) out.push_back(std::make_unique<const mobb::Blocks>(clip));
+    return out;
+}
 std::unique_ptr<Peer> blocks_peer(const Clips& clips) {
-    std::vector<std::unique_ptr<const mobb::Blocks>> blocks;
-    for (const mobb::ClipPtr& clip : clips) blocks.push_back(std::make_unique<const mobb::Blocks>(clip));
-    return own<mobb::PlacedBlocks>(std::move(blocks), [](const auto& a, const auto& b) { return intersects(a, b); });
+    return own<mobb::PlacedBlocks>(blocks_of(clips), [](const auto& a, const auto& b) { return intersects(a, b); });
+}
+
+/// A clip and where it is to be placed.
+struct Place {
+    const mobb::Blocks* blocks;
+    mobb::Placement at;
+
+    Place(const mobb::Blocks& of, const mobb::Placement& placement) : blocks(&of), at(placement) {}
+    mobb::PlacedBlocks placed() const { return {*blocks, at}; }
+};
+/// Both clips are placed anew in each query.
+std::unique_ptr<Peer> placing_peer(const Clips& clips) {
+    return own<Place>(blocks_of(clips),
+                      [](const auto& a, const auto& b) { return intersects(a.placed(), b.placed()); });
 }
 
 /// The first one is what the others are compared with.
@@ -87,6 +104,7 @@ std::vector<NamedPeer> peers_of(const Clips& clips) {
     out.push_back({"MOBB, leaf 10", tree_peer(clips, {.leaf = 10})});
     out.push_back({"MOBB, leaf 50", tree_peer(clips, {.leaf = 50})});
     out.push_back({"blocks", blocks_peer(clips)});
+    out.push_back({"blocks, placed in each query", placing_peer(clips)});
     out.push_back({"direct search", direct_peer(clips)});
     [[maybe_unused]] const auto add = [&](const char* name, auto make, std::initializer_list<int> sizes) {
         for (const int samples : sizes) {

@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 3> kShowNames{"answer", "clearance", "tes
 constexpr int kCoarsest = 8;
 
 /// The number of a placement that an axis changes.
-double& along(mobb::Placement& placement, MapAxis axis) {
+double along(const mobb::Placement& placement, MapAxis axis) {
     switch (axis) {
         case MapAxis::dx:
             return placement.translate.x;
@@ -43,9 +43,20 @@ double& along(mobb::Placement& placement, MapAxis axis) {
     }
     return placement.start;
 }
-double along(const mobb::Placement& placement, MapAxis axis) {
-    mobb::Placement copy = placement;
-    return along(copy, axis);
+void set_along(mobb::Placement& placement, MapAxis axis, double value) {
+    switch (axis) {
+        case MapAxis::dx:
+            placement.translate.x = value;
+            return;
+        case MapAxis::dy:
+            placement.translate.y = value;
+            return;
+        case MapAxis::dheading:
+            placement.rotate_deg = value;
+            return;
+        case MapAxis::dstart:
+            placement.start = value;
+    }
 }
 
 /// Those that a map shows.
@@ -272,15 +283,15 @@ void check(const MapOrder& order, const mobb::Placement& b, const mobb::Clip& cl
 
 mobb::Placement moved(const mobb::Placement& b, const MapOrder& order, glm::dvec2 by) {
     mobb::Placement out = b;
-    along(out, order.across.axis) += by.x;
-    along(out, order.up.axis) += by.y;
+    set_along(out, order.across.axis, along(out, order.across.axis) + by.x);
+    set_along(out, order.up.axis, along(out, order.up.axis) + by.y);
     return out;
 }
 
 mobb::Placement placed_at(const mobb::Placement& b, const MapOrder& order, glm::dvec2 at) {
     mobb::Placement out = b;
-    along(out, order.across.axis) = at.x;
-    along(out, order.up.axis) = at.y;
+    set_along(out, order.across.axis, at.x);
+    set_along(out, order.up.axis, at.y);
     return out;
 }
 

@@ -67,8 +67,8 @@ StandardPlacements::Draw StandardPlacements::draw(std::uint64_t seed, std::uint6
 }
 
 mobb::Placement StandardPlacements::place(const Draw& drawn) const {
-    const glm::dvec2 turned = mobb::Rotation::from_degrees(drawn.rotate_deg)(middle_b);
-    return {.translate = middle_a + drawn.shift - turned, .rotate_deg = drawn.rotate_deg, .start = drawn.start};
+    const mobb::Turn turn = drawn.rotate_deg;
+    return {.translate = middle_a + drawn.shift - turn.rotation()(middle_b), .rotate_deg = turn, .start = drawn.start};
 }
 
 std::string_view name(QueryWorkload::Kind kind) {

@@ -203,35 +203,40 @@ struct Gathered {
     Paths paths() const { return {values, kLanes}; }
 };
 
-MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, Shift shift) {
-    const float ca = a.cosine(), sa = a.sine(), cb = b.cosine(), sb = b.sine();
-    const glm::dvec2 between = b.center() - a.center();
-    const auto x = static_cast<float>(between.x), y = static_cast<float>(between.y);
-    const float slack = a.slack() + b.slack();
+/// Metres by which bounds that stand still must be apart.
+MOBB_INLINE float slack_of(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
+    return rounded_up(roots.rounding) + a.blocks().slack() + b.blocks().slack();
+}
+MOBB_INLINE Relation relate(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, Shift shift) {
+    glm::dvec2 offset = roots.between;
+    if (a.blocks().is_short() || b.blocks().is_short())
+        offset +=
+            roots.turn(b.blocks().origin() - b.blocks().root_begin()) - (a.blocks().origin() - a.blocks().root_begin());
+    const float slack = slack_of(a, b, roots);
     const float room = shift.timed == Timed::nearly ? slack + b.blocks().step() : slack;
     const bool tells = shift.rest_parts() >= std::max(a.blocks().sure_parts(), b.blocks().sure_parts());
-    return {
-        ca * cb + sa * sb, ca * sb - sa * cb, ca * x + sa * y, ca * y - sa * x, room, tells ? slack : Blocks::kNever};
+    return {static_cast<float>(roots.turn.c),
+            static_cast<float>(roots.turn.s),
+            static_cast<float>(offset.x),
+            static_cast<float>(offset.y),
+            room,
+            tells ? slack : Blocks::kNever};
 }
 
-/// Seconds by which times of either may be wrong, from rounding.
-MOBB_INLINE float time_error(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return static_cast<float>(PlacedBlocks::kTimeError * (a.largest_time() + b.largest_time()));
+/// Whether times are exact enough to tell by parts of a sample which of two clips' samples share enough of it.
+MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
+    return roots.time_error + 2 * std::max(a.dt(), b.dt()) / static_cast<double>(Shift::kOne) < kMinOverlap / 2;
 }
-
-/// Whether the two are timed well, and their shift is known from no more than their parts.
-MOBB_INLINE bool have_parts(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return a.begin_parts() != PlacedBlocks::kNoParts && b.begin_parts() != PlacedBlocks::kNoParts;
-}
-/// How well two are timed that have no parts, where times may be wrong by so many seconds.
-MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBlocks& b) {
-    if (error < kMinOverlap / 2) return Timed::well;
-    return error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
+/// How well two are timed that have no parts.
+MOBB_INLINE Timed timed_to(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
+    if (roots.time_error < kMinOverlap / 2) return Timed::well;
+    return roots.time_error < std::min(a.dt(), b.dt()) / 8 ? Timed::nearly : Timed::badly;
 }
 /// By the difference of their starts, of two that have no parts.
-[[gnu::noinline]] inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const double error = static_cast<double>(time_error(a, b));
-    const Timed timed = timed_to(error, a, b);
+[[gnu::noinline]] inline Shift shift_by_difference(const PlacedBlocks& a, const PlacedBlocks& b,
+                                                   const RootsApart& roots) {
+    const double error = roots.time_error;
+    const Timed timed = timed_to(a, b, roots);
     if (timed == Timed::badly) return {};
     const double per_dt = a.blocks().per_dt();
     const double later = (b.start() - a.start()) * per_dt + (b.first() - a.first());
@@ -243,7 +248,7 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
     } else {
         // The sum of a start and a clip's time is rounded, but a later one never to less: samples share time only if
         // they do by these sums, in which the start cancels.
-        const double unsure = PlacedBlocks::kTimeError * (a.end() + b.end());
+        const double unsure = RootsApart::kTimeError * (a.end() + b.end());
         if (left <= unsure) return {whole, Timed::nearly};
         if (left >= 1 - unsure) return {whole - Shift::kOne, Timed::nearly};
         // More than a moment, but perhaps less than they must share.
@@ -254,12 +259,28 @@ MOBB_INLINE Timed timed_to(double error, const PlacedBlocks& a, const PlacedBloc
 }
 /// Of two whose roots share time: so samples fit into an int. Badly timed where they share it by no constant shift, of
 /// clips of different dt, or where rounding hides it.
-MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b) {
+MOBB_INLINE Shift shift_of(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
     if (a.dt() != b.dt()) return {};
-    if (!have_parts(a, b)) [[unlikely]]
-        return shift_by_difference(a, b);
-    return {b.begin_parts() - a.begin_parts(), Timed::well};
+    if (!have_parts(a, b, roots)) [[unlikely]]
+        return shift_by_difference(a, b, roots);
+    const double parts = (b.begin_time() - a.begin_time()) * (a.blocks().per_dt() * static_cast<double>(Shift::kOne));
+    return {static_cast<std::int64_t>(parts + (parts < 0 ? -0.5 : 0.5)), Timed::well};
 }
+
+/// Two whose roots share time and may meet, and what follows from where they are placed: worked out once a query.
+struct Related {
+    const PlacedBlocks& a;
+    const PlacedBlocks& b;
+    const RootsApart& roots;
+    const Shift shift;
+    const Relation relation;
+
+    MOBB_INLINE Related(const PlacedBlocks& of_a, const PlacedBlocks& of_b, const RootsApart& apart)
+        : Related(of_a, of_b, apart, shift_of(of_a, of_b, apart)) {}
+    MOBB_INLINE Related(const PlacedBlocks& of_a, const PlacedBlocks& of_b, const RootsApart& apart,
+                        const Shift& shifted)
+        : a(of_a), b(of_b), roots(apart), shift(shifted), relation(relate(a, b, roots, shift)) {}
+};
 
 constexpr int kMostBits = 64;
 

@@ -79,15 +79,18 @@ const BlockQueries& chosen_queries() {
 
 namespace detail {
 
-std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
+std::optional<SamplePair> first_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
     SamplePair pair;
-    return chosen_queries().first_hit(a, b, pair) ? std::optional(pair) : std::nullopt;
+    return chosen_queries().first_hit(a, b, roots, pair) ? std::optional(pair) : std::nullopt;
 }
 
-bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) { return chosen_queries().intersects(a, b); }
+bool intersects(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
+    return chosen_queries().intersects(a, b, roots);
+}
 
-bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
-    return chosen_queries().for_each_hit(a, b, sink, observer);
+bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, HitSink sink,
+                  BlockObserver* observer) {
+    return chosen_queries().for_each_hit(a, b, roots, sink, observer);
 }
 
 }  // namespace detail

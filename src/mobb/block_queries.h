@@ -11,9 +11,10 @@ namespace mobb {
 
 /// `first_hit`, `intersects` and `for_each_hit` require that the roots meet.
 struct BlockQueries {
-    bool (*first_hit)(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair);
-    bool (*intersects)(const PlacedBlocks& a, const PlacedBlocks& b);
-    bool (*for_each_hit)(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer);
+    bool (*first_hit)(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, SamplePair& pair);
+    bool (*intersects)(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots);
+    bool (*for_each_hit)(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, HitSink sink,
+                         BlockObserver* observer);
     void (*intersects_each)(const BlocksPair* pairs, std::size_t count, bool* answers);
 };
 

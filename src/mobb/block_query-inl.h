@@ -22,15 +22,15 @@ inline bool last_pair_collides(const PlacedBlocks& a, const PlacedBlocks& b, con
 template <class Observer, class OnHit, class Unequal = UnequalDtScan<OnHit, Timed::well>>
 class BlockTraversal {
   public:
-    MOBB_INLINE BlockTraversal(const PlacedBlocks& a, const PlacedBlocks& b, const Relation& relation,
-                               const Shift& shift, [[maybe_unused]] Observer& observer, OnHit& on_hit,
+    MOBB_INLINE BlockTraversal(const Related& related, [[maybe_unused]] Observer& observer, OnHit& on_hit,
                                Unequal* unequal = nullptr)
-        : a_(a),
-          b_(b),
-          blocks_a_(a.blocks()),
-          blocks_b_(b.blocks()),
-          relation_(relation),
-          shift_(shift),
+        : a_(related.a),
+          b_(related.b),
+          blocks_a_(a_.blocks()),
+          blocks_b_(b_.blocks()),
+          roots_(related.roots),
+          relation_(related.relation),
+          shift_(related.shift),
           unequal_(unequal),
           observer_(observer),
           on_hit_(on_hit) {}
@@ -107,7 +107,7 @@ class BlockTraversal {
 
     /// Seconds by which what two samples share may be more or less than it is told: times are rounded, those of one dt
     /// to whole parts of a sample.
-    double time_slack() const { return static_cast<double>(time_error(a_, b_)) + a_.dt() / Shift::kOne; }
+    double time_slack() const { return roots_.time_error + a_.dt() / Shift::kOne; }
     /// Pairs that share less than this many samples are not tested ...
     double least_common() const { return (kMinOverlap - time_slack()) * blocks_a_.per_dt(); }
     /// ... and those that share more are, for sure.
@@ -322,7 +322,7 @@ class BlockTraversal {
             const float x = (relation_.c * bx - relation_.s * by) - (a.x[i] - relation_.ox);
             const float y = (relation_.s * bx + relation_.c * by) - (a.y[i] - relation_.oy);
             const float squared = x * x + y * y, radii = a.inner[i] + b.inner[j];
-            const float slack = a_.slack() + b_.slack(), most = radii + slack, least = radii - slack;
+            const float slack = slack_of(a_, b_, roots_), most = radii + slack, least = radii - slack;
             if (squared > most * most) return false;
             if (least > 0 && squared < least * least && common > sure_common()) return on_hit_(sample_a, sample_b);
         }
@@ -345,6 +345,7 @@ class BlockTraversal {
     const PlacedBlocks& b_;
     const Blocks& blocks_a_;
     const Blocks& blocks_b_;
+    const RootsApart& roots_;
     const Relation relation_;
     const Shift shift_;
     Unequal* const unequal_;  ///< of clips of different dt, where nobody watches
@@ -365,55 +366,54 @@ struct AnyHit {
     bool operator()(int, int) { return true; }
 };
 
-/// Of roots that share time and may meet. Returns true if on_hit stopped it.
+/// Returns true if on_hit stopped it.
 template <class Observer, class OnHit>
-MOBB_INLINE bool traverse(const PlacedBlocks& a, const PlacedBlocks& b, Observer& observer, OnHit& on_hit) {
-    const Shift shift = shift_of(a, b);
-    if (shift.timed == Timed::badly || (Observer::watches && !have_parts(a, b))) [[unlikely]] {
-        const Shift none;
-        if constexpr (!Observer::watches) {
-            const Timed timed = have_parts(a, b) ? Timed::well : timed_to(static_cast<double>(time_error(a, b)), a, b);
-            if (timed == Timed::well) {
-                UnequalDtScan<OnHit, Timed::well> unequal(a, b, on_hit);
-                return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
-            }
-            if (timed == Timed::nearly) {
-                UnequalDtScan<OnHit, Timed::nearly> unequal(a, b, on_hit);
-                return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit, &unequal).run();
-            }
+MOBB_INLINE bool traverse(const Related& related, Observer& observer, OnHit& on_hit) {
+    const auto& [a, b, roots, shift, relation] = related;
+    const bool parts = have_parts(a, b, roots);
+    if (shift.timed != Timed::badly && (parts || !Observer::watches)) [[likely]]
+        return BlockTraversal(related, observer, on_hit).run();
+    const Related unshifted(a, b, roots, Shift{});
+    if constexpr (!Observer::watches) {
+        const Timed timed = parts ? Timed::well : timed_to(a, b, roots);
+        if (timed == Timed::well) {
+            UnequalDtScan<OnHit, Timed::well> unequal(a, b, roots, on_hit);
+            return BlockTraversal(unshifted, observer, on_hit, &unequal).run();
         }
-        return BlockTraversal(a, b, relate(a, b, none), none, observer, on_hit).run();
+        if (timed == Timed::nearly) {
+            UnequalDtScan<OnHit, Timed::nearly> unequal(a, b, roots, on_hit);
+            return BlockTraversal(unshifted, observer, on_hit, &unequal).run();
+        }
     }
-    return BlockTraversal(a, b, relate(a, b, shift), shift, observer, on_hit).run();
+    return BlockTraversal(unshifted, observer, on_hit).run();
 }
 
-inline bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, SamplePair& pair) {
+inline bool first_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, SamplePair& pair) {
     NoObserver observer;
     KeepFirst keep;
-    const bool hit = traverse(a, b, observer, keep);
+    const bool hit = traverse(Related(a, b, roots), observer, keep);
     pair = keep.pair;
     return hit;
 }
 
 /// Whether one of the two has few enough blocks for one level.
-MOBB_INLINE bool is_shallow(const PlacedBlocks& a, const PlacedBlocks& b) {
-    return std::min(a.blocks().levels(), b.blocks().levels()) == 1;
+MOBB_INLINE bool is_shallow(const Related& related) {
+    return std::min(related.a.blocks().levels(), related.b.blocks().levels()) == 1;
 }
 /// True if the window test alone decides every pair that is not close.
-MOBB_INLINE bool can_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    return shift.timed == Timed::well && is_shallow(a, b);
-}
-/// What their windows tell of two whose roots meet: of run k of A, as WindowPairs says, in bit k modulo kMostBits;
-/// which of them are sure means nothing. The same work for all, without a branch but for the number of steps.
-MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    const Relation relation = relate(a, b, shift);
-    const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
-    const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
+MOBB_INLINE bool can_look(const Related& related) { return related.shift.timed == Timed::well && is_shallow(related); }
+/// What their windows tell of two, one of which is shallow, with some samples to be scanned: of run k of A, as
+/// WindowPairs says, in bit k modulo kMostBits; which of them are sure means nothing. The same work for all, without a
+/// branch but for the number of steps.
+MOBB_INLINE Nearness first_look(const Related& related) {
+    const Blocks &a = related.a.blocks(), &b = related.b.blocks();
+    const int whole = related.shift.whole();
+    const WindowPairs windows(a, b, shared_samples(a, b, whole), whole);
     // The last step goes over some a second time rather than beyond them.
     const int count = windows.count, last = std::max(count - kLanes, 0);
     Nearness near;
     for (int k = 0;; k = std::min(k + kLanes, last)) {
-        const Nearness some = windows.pairs.at(k, relation);
+        const Nearness some = windows.pairs.at(k, related.relation);
         near.may |= std::rotl(some.may, k);
         near.sure |= some.sure;
         if (k == last) break;
@@ -425,104 +425,67 @@ MOBB_INLINE Nearness first_look(const PlacedBlocks& a, const PlacedBlocks& b, co
 
 /// Of two that are left undecided by the first look, with what it says of runs that may. Out of line, so that it keeps
 /// no registers for it.
-[[gnu::noinline]] inline bool any_sample_hits(const PlacedBlocks& a, const PlacedBlocks& b, std::uint64_t runs) {
+[[gnu::noinline]] inline bool any_sample_hits(const Related& related, std::uint64_t runs) {
     NoObserver observer;
     AnyHit any;
-    const Shift shift = shift_of(a, b);
-    BlockTraversal traversal(a, b, relate(a, b, shift), shift, observer, any);
-    const SampleSpan span = shared_samples(a.blocks(), b.blocks(), shift.whole());
-    const WindowPairs windows(a.blocks(), b.blocks(), span, shift.whole());
+    BlockTraversal traversal(related, observer, any);
+    const Blocks &a = related.a.blocks(), &b = related.b.blocks();
+    const int whole = related.shift.whole();
+    const SampleSpan span = shared_samples(a, b, whole);
+    const WindowPairs windows(a, b, span, whole);
     if (windows.count > kMostBits) return traversal.scan_windows(span);
     const Nearness samples = traversal.samples_of_runs(runs, windows.first, span);
     return samples.undecided() ? traversal.test_runs(runs, windows.first, span) : samples.sure != 0;
 }
-/// Of two whose roots meet, one of which is shallow, with some samples to be scanned.
-MOBB_INLINE bool look_for_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    const Nearness near = first_look(a, b, shift);
+MOBB_INLINE bool look_for_hit(const Related& related) {
+    const Nearness near = first_look(related);
     // One branch, as it is easier to foretell than which of the two is known.
-    return near.undecided() ? any_sample_hits(a, b, near.may) : near.sure != 0;
+    return near.undecided() ? any_sample_hits(related, near.may) : near.sure != 0;
 }
-/// Of any two whose roots meet.
-[[gnu::noinline]] inline bool any_hit(const PlacedBlocks& a, const PlacedBlocks& b) {
+[[gnu::noinline]] inline bool any_hit(const Related& related) {
     NoObserver observer;
     AnyHit any;
-    return traverse(a, b, observer, any);
+    return traverse(related, observer, any);
 }
 /// Of those that are not timed well.
-[[gnu::noinline]] inline bool any_late_hit(const PlacedBlocks& a, const PlacedBlocks& b, const Shift& shift) {
-    if (is_shallow(a, b)) {
+[[gnu::noinline]] inline bool any_late_hit(const Related& related) {
+    const auto& [a, b, roots, shift, relation] = related;
+    if (is_shallow(related)) {
         if (shift.timed == Timed::fairly) {
             // The other way round the first partner is the one with which more is shared.
-            const Shift turned = shift_of(b, a);
-            if (turned.timed == Timed::well) return look_for_hit(b, a, turned);
+            const RootsApart other_way(b, a);
+            const Related turned(b, a, other_way);
+            if (turned.shift.timed == Timed::well) return look_for_hit(turned);
         }
         if (shift.timed == Timed::nearly && behind_shared(b.blocks(), shift) > 0)
-            return look_for_hit(a, b, shift) || last_pair_collides(a, b, shift);
+            return look_for_hit(related) || last_pair_collides(a, b, shift);
     }
-    return any_hit(a, b);
+    return any_hit(related);
 }
 
-inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b) {
-    const Shift shift = shift_of(a, b);
-    if (can_look(a, b, shift)) return look_for_hit(a, b, shift);
-    return have_parts(a, b) ? any_hit(a, b) : any_late_hit(a, b, shift);
+inline bool intersects(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots) {
+    const Related related(a, b, roots);
+    if (can_look(related)) return look_for_hit(related);
+    return have_parts(a, b, roots) ? any_hit(related) : any_late_hit(related);
 }
 
-inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink, BlockObserver* observer) {
-    if (observer) return traverse(a, b, *observer, sink);
+inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, HitSink sink,
+                         BlockObserver* observer) {
+    const Related related(a, b, roots);
+    if (observer) return traverse(related, *observer, sink);
     NoObserver nobody;
-    return traverse(a, b, nobody, sink);
+    return traverse(related, nobody, sink);
 }
 
-/// Of some number of pairs at a time times go first, then roots, windows, and samples: what ends soon costs hardly a
-/// mispredicted branch.
 inline void intersects_each(const BlocksPair* pairs, std::size_t count, bool* answers) {
-    std::fill_n(answers, count, false);
-    constexpr std::size_t kAtATime = 64;
-    std::size_t together[kAtATime], to_look_at[kAtATime];
-    struct {
-        std::size_t index;
-        std::uint64_t runs;
-    } undecided[kAtATime];
-    for (std::size_t first = 0; first < count; first += kAtATime) {
-        const std::size_t end = std::min(count, first + kAtATime);
-        std::size_t sharing = 0;
-        for (std::size_t i = first; i < end; ++i) {
-            // Placements lie anywhere in memory: they are fetched a few pairs ahead.
-            constexpr std::size_t kAhead = 12;
-            if (i + kAhead < count) {
-                __builtin_prefetch(pairs[i + kAhead].a);
-                __builtin_prefetch(pairs[i + kAhead].b);
-            }
-            const auto [a, b] = pairs[i];
-            together[sharing] = i;
-            sharing += overlap_in_time(a->begin_time(), a->end_time(), b->begin_time(), b->end_time()) ? std::size_t{1}
-                                                                                                       : std::size_t{0};
-        }
-        std::size_t roots = 0;
-        for (std::size_t k = 0; k < sharing; ++k) {
-            const auto [a, b] = pairs[together[k]];
-            to_look_at[roots] = together[k];
-            roots += roots_meet(*a, *b) ? std::size_t{1} : std::size_t{0};
-        }
-        std::size_t open = 0;
-        for (std::size_t k = 0; k < roots; ++k) {
-            const std::size_t i = to_look_at[k];
-            const auto [a, b] = pairs[i];
-            const Shift shift = shift_of(*a, *b);
-            if (!can_look(*a, *b, shift)) [[unlikely]] {
-                answers[i] = MOBB_LANES::intersects(*a, *b);
-                continue;
-            }
-            const Nearness near = first_look(*a, *b, shift);
-            answers[i] = near.sure != 0;
-            undecided[open] = {i, near.may};
-            open += near.undecided() ? std::size_t{1} : std::size_t{0};
-        }
-        for (std::size_t k = 0; k < open; ++k) {
-            const auto [a, b] = pairs[undecided[k].index];
-            answers[undecided[k].index] = any_sample_hits(*a, *b, undecided[k].runs);
-        }
+    // Placements lie anywhere in memory: they are fetched a few pairs ahead.
+    constexpr std::size_t kAhead = 12;
+    for (std::size_t i = 0; i < count; ++i) {
+        const BlocksPair& ahead = pairs[std::min(i + kAhead, count - 1)];
+        __builtin_prefetch(ahead.a);
+        __builtin_prefetch(ahead.b);
+        const RootsApart roots(*pairs[i].a, *pairs[i].b);
+        answers[i] = roots.meet && MOBB_LANES::intersects(*pairs[i].a, *pairs[i].b, roots);
     }
 }
 

@@ -145,13 +145,13 @@ void find_reaches(const Blocks::Rings& of, int n, int before, int behind, int be
 
 Blocks::Blocks(ClipPtr clip)
     : dt_(existing(clip).dt()),
+      reach_(clip->reach()),
       per_dt_(1 / dt_),
       count_(clip->count()),
-      linear_(clip->motion() == Motion::linear),
-      steps_(clip->steps()),
-      disks_(clip->samples().data()),
-      reach_(clip->reach()),
       most_start_(clip->most_start()),
+      steps_(clip->steps()),
+      linear_(clip->motion() == Motion::linear),
+      disks_(clip->samples().data()),
       clip_(std::move(clip)) {
     constexpr std::int64_t kWhole = std::int64_t{1} << kLogParts;
     const double sure = 2 * kMinOverlap * per_dt_;  // of a sample; twice, as times are exact to half of it
@@ -168,7 +168,7 @@ Blocks::Blocks(ClipPtr clip)
     Middle middle;
     for (const Disk& d : clip_->samples()) middle.add(d.x, d.y, d.r);
     origin_ = middle.get();
-    moving_radius_ = radius_ = reach_from(origin_);
+    double moving_radius = radius_ = reach_from(origin_);
     if (is_short()) {
         const Run run(*clip_, {0, 0}, 0, n);
         const MovingDisk moving = around<double>(run, run.per_sample(), steps_);
@@ -176,12 +176,24 @@ Blocks::Blocks(ClipPtr clip)
             origin_ = moving.from + moving.drift / 2.0;
             velocity_ = moving.drift * per_dt_ / static_cast<double>(steps_);
             root_speed_ = glm::length(velocity_);
-            moving_radius_ = moving.radius;
+            moving_radius = moving.radius;
             radius_ = reach_from(origin_);
         }
     }
+    double extent = 0;  // |x| + |y| + r about the origin at most
     for (const Disk& d : clip_->samples())
-        extent_ = std::max(extent_, rounded_up(std::abs(d.x - origin_.x) + std::abs(d.y - origin_.y) + d.r));
+        extent = std::max(extent, std::abs(d.x - origin_.x) + std::abs(d.y - origin_.y) + d.r);
+    // No centre of a root moves farther than this from the origin, nor is it farther from another one's that it meets.
+    const double lengths = 3 * radius_;
+    constexpr double kTaxicab = 1.4143;  // what |x| + |y| of a length is at most
+    // What rounding in single precision adds at most, as a share of the lengths involved, with a wide margin.
+    constexpr double kLengthError = 0x1p-17;
+    slack_ = rounded_up(kLengthError * (kTaxicab * lengths + extent));
+    // Above what the predicate of swept disks leaves out: that takes them for nearer than they are, by up to a share of
+    // all lengths involved (see RelativeFrame::cover_swept_disks).
+    constexpr double kRootError = 0x1p-19;
+    root_radius_ = moving_radius + kRootError * lengths;
+    root_begin_ = origin_ - velocity_ * (clip_->duration() / 2);
 
     // All that is to be stored, so that it is allocated once.
     const auto values_in = [](int arrays, int count) {

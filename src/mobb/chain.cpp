@@ -108,8 +108,8 @@ void Chain::append(std::span<const ChainLink> links) {
     reach_ = reach;
     for (const ChainLink& link : links) {
         const Tree& tree = link.part->tree();
-        push({link.part, tree.nodes().data(), tree.clip().samples().data(), Rotation::from_degrees(link.rotate_deg),
-              link.translate, links_.empty() ? 0 : end(), tree.clip().count(), of_linear_clip(tree), false, 0});
+        push({link.part, tree.nodes().data(), tree.clip().samples().data(), link.rotate_deg.rotation(), link.translate,
+              links_.empty() ? 0 : end(), tree.clip().count(), of_linear_clip(tree), false, 0});
     }
     join_peaks();
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -13,7 +14,11 @@ namespace mobb {
 
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 bool within(double value, double limit) { return std::isfinite(value) && std::abs(value) <= limit; }
+
+[[noreturn]] void refuse_degrees() { throw std::invalid_argument("rotate_deg must be finite and within 1e9 degrees"); }
 
 }  // namespace
 
@@ -43,9 +48,9 @@ Clip::Clip(double dt, std::vector<Disk> samples, Motion motion)
     }
 }
 
-void refuse_placement(glm::dvec2, double rotate_deg, double start, double most_start) {
-    if (!within(rotate_deg, kMaxDegrees))
-        throw std::invalid_argument("rotate_deg must be finite and within 1e9 degrees");
+void refuse_placement(const Placement& placement, double most_start) {
+    if (!placement.rotate_deg.has_rotation()) refuse_degrees();
+    const double start = placement.start;
     if (!within(start, kMaxTime)) throw std::invalid_argument("start must be finite and within 1e12 s");
     if (!within(start, most_start)) {
         std::array<char, 200> text{};
@@ -58,12 +63,25 @@ void refuse_placement(glm::dvec2, double rotate_deg, double start, double most_s
     throw std::invalid_argument("translate must be finite and within 1e9 m");
 }
 
-void refuse_rotation() {
-    throw std::invalid_argument("a rotation's cosine and sine must have squares that add up to 1");
+Turn::Turn(double degrees) : degrees_(degrees) {
+    rotation_ = within(degrees, kMaxDegrees) ? Rotation::from_degrees(degrees) : Rotation{kNone, kNone};
 }
 
+Turn Turn::by(double cosine, double sine) {
+    const double squared = cosine * cosine + sine * sine;
+    if (!(std::abs(squared - 1) <= 1e-6))
+        throw std::invalid_argument("a rotation's cosine and sine must have squares that add up to 1");
+    const double length = std::sqrt(squared);
+    Turn out;
+    out.rotation_ = {cosine / length, sine / length};
+    out.degrees_ = kNone;
+    return out;
+}
+
+double Turn::degrees_of_rotation() const { return std::atan2(rotation_.s, rotation_.c) * (180 / std::numbers::pi); }
+
 Rotation Rotation::from_degrees(double degrees) {
-    if (!within(degrees, kMaxDegrees)) refuse_placement({}, degrees, 0, kMaxTime);
+    if (!within(degrees, kMaxDegrees)) refuse_degrees();
     // Quarter turns first, so that 90, 180 and 270 degrees are exact and the rest is small.
     const double quarters = std::nearbyint(degrees / 90);
     const double rest = (degrees - quarters * 90) * (std::numbers::pi / 180);

@@ -97,35 +97,6 @@ class Clip {
 
 using ClipPtr = std::shared_ptr<const Clip>;
 
-/// Places a clip in the world: rotate about the clip's origin, then translate, and start at a global time.
-struct Placement {
-    glm::dvec2 translate{0, 0};  ///< metres
-    double rotate_deg = 0;       ///< degrees, counter-clockwise; multiples of 90 rotate exactly
-    double start = 0;            ///< seconds, global
-
-    friend bool operator==(const Placement&, const Placement&) = default;
-};
-
-/// True if every number is finite and within kMaxLength, kMaxDegrees and `most_start`: Clip::most_start of what is
-/// placed.
-inline bool is_valid(const Placement& placement, double most_start = kMaxTime) {
-    // Written so that NaN fails it.
-    return std::abs(placement.translate.x) <= kMaxLength && std::abs(placement.translate.y) <= kMaxLength &&
-           std::abs(placement.rotate_deg) <= kMaxDegrees && std::abs(placement.start) <= most_start;
-}
-
-/// Throws std::invalid_argument, naming the number of a placement that is_valid does not take.
-[[noreturn]] void refuse_placement(glm::dvec2 translate, double rotate_deg, double start, double most_start);
-
-/// The placement, or else refuses it: all that is placed is checked so when it is made. Compared with what is not a
-/// number, everything would be apart; and times that doubles cannot tell apart are shared by nobody.
-inline const Placement& checked(const Placement& placement, double most_start) {
-    // By its numbers, which may be in registers.
-    if (!is_valid(placement, most_start)) [[unlikely]]
-        refuse_placement(placement.translate, placement.rotate_deg, placement.start, most_start);
-    return placement;
-}
-
 /// Cosine and sine of a rotation, exact for multiples of 90 degrees.
 struct Rotation {
     double c = 1;
@@ -139,13 +110,60 @@ struct Rotation {
     Rotation operator*(const Rotation& other) const { return {c * other.c - s * other.s, s * other.c + c * other.s}; }
 };
 
-/// Throws std::invalid_argument.
-[[noreturn]] void refuse_rotation();
-/// The rotation; refuses it unless the squares of cosine and sine add up to 1, within 1e-9.
-inline const Rotation& checked(const Rotation& rotation) {
-    if (!(std::abs(rotation.c * rotation.c + rotation.s * rotation.s - 1) <= 1e-9)) [[unlikely]]
-        refuse_rotation();
-    return rotation;
+/// An angle in degrees, counter-clockwise, with its rotation: worked out once, where it is made. Read, and compared, as
+/// degrees.
+class Turn {
+  public:
+    Turn() = default;
+    /// Multiples of 90 degrees rotate exactly. What is not finite, or beyond kMaxDegrees, has no rotation, and nothing
+    /// can be placed by it (see is_valid).
+    Turn(double degrees);  // NOLINT(google-explicit-constructor): rotate_deg = 90
+    /// By a cosine and a sine, as exact as floats have them; they are scaled to a length of 1. Throws
+    /// std::invalid_argument unless their squares add up to 1, within 1e-6.
+    static Turn by(double cosine, double sine);
+
+    operator double() const {  // NOLINT(google-explicit-constructor)
+        return degrees_ == degrees_ ? degrees_ : degrees_of_rotation();
+    }
+    const Rotation& rotation() const { return rotation_; }
+    bool has_rotation() const { return rotation_.c == rotation_.c; }
+
+  private:
+    double degrees_of_rotation() const;
+
+    Rotation rotation_;   ///< NaN where there is none
+    double degrees_ = 0;  ///< NaN where they are worked out as they are asked for
+};
+
+/// Places a clip in the world: rotate about the clip's origin, then translate, and start at a global time.
+struct Placement {
+    glm::dvec2 translate{0, 0};  ///< metres
+    Turn rotate_deg;             ///< degrees, or Turn::by a cosine and a sine
+    double start = 0;            ///< seconds, global
+
+    /// From the clip's frame to the world's.
+    const Rotation& rotation() const { return rotate_deg.rotation(); }
+
+    friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+/// True if every number is finite and within kMaxLength, kMaxDegrees and `most_start`: Clip::most_start of what is
+/// placed.
+inline bool is_valid(const Placement& placement, double most_start = kMaxTime) {
+    // Written so that NaN fails it.
+    return std::abs(placement.translate.x) <= kMaxLength && std::abs(placement.translate.y) <= kMaxLength &&
+           placement.rotate_deg.has_rotation() && std::abs(placement.start) <= most_start;
+}
+
+/// Throws std::invalid_argument, naming the number of a placement that is_valid does not take.
+[[noreturn]] void refuse_placement(const Placement& placement, double most_start);
+
+/// The placement, or else refuses it: all that is placed is checked so when it is made. Compared with what is not a
+/// number, everything would be apart; and times that doubles cannot tell apart are shared by nobody.
+inline const Placement& checked(const Placement& placement, double most_start) {
+    if (!is_valid(placement, most_start)) [[unlikely]]
+        refuse_placement(placement, most_start);
+    return placement;
 }
 
 /// A disk that is rotated about the origin and then translated. Every sample that is placed comes through here, so that
@@ -184,9 +202,8 @@ class PlacedClip {
           last_to_(clip.motion() == Motion::linear ? clip.count() - 1 : -1),
           steps_(clip.steps()),
           clip_(&clip),
-          rotate_deg_(placement.rotate_deg),
-          frame_{Rotation::from_degrees(checked(placement, clip.most_start()).rotate_deg), placement.translate,
-                 placement.start, clip.reach(), clip.duration()} {}
+          rotate_deg_(checked(placement, clip.most_start()).rotate_deg),
+          frame_{placement.rotation(), placement.translate, placement.start, clip.reach(), clip.duration()} {}
     PlacedClip(const Clip&&, const Placement&) = delete;
 
     const Clip& clip() const { return *clip_; }
@@ -214,7 +231,7 @@ class PlacedClip {
     int last_to_;  ///< the last sample that another runs to; -1 of a held clip
     int steps_;    ///< of the clip
     const Clip* clip_;
-    double rotate_deg_;
+    Turn rotate_deg_;
     PlacedFrame frame_;
 };
 

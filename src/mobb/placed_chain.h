@@ -51,8 +51,8 @@ class PlacedChain {
         : chain_(&chain),
           dt_(chain.dt()),
           until_(chain.until()),
-          frame_{Rotation::from_degrees(checked(placement, chain.most_start()).rotate_deg), placement.translate,
-                 placement.start, chain.reach(), chain.duration()} {}
+          frame_{checked(placement, chain.most_start()).rotation(), placement.translate, placement.start, chain.reach(),
+                 chain.duration()} {}
     PlacedChain(const Chain&&, const Placement&) = delete;
 
     const Chain& chain() const { return *chain_; }

@@ -130,8 +130,9 @@ std::vector<Interval> contact_intervals(const A& a, const B& b) {
 
 /// The earliest contact of two clips by their blocks, or none: bit for bit that of trees and of direct_search.
 inline std::optional<Contact> query(const PlacedBlocks& a, const PlacedBlocks& b) {
-    if (!roots_meet(a, b)) return std::nullopt;
-    const std::optional<SamplePair> hit = detail::first_hit(a, b);
+    const RootsApart roots(a, b);
+    if (!roots.meet) return std::nullopt;
+    const std::optional<SamplePair> hit = detail::first_hit(a, b, roots);
     return hit ? std::optional(contact_of(a, hit->a, b, hit->b)) : std::nullopt;
 }
 

@@ -62,14 +62,15 @@ MOBB_INLINE unsigned near_partners(const Units& units, int first, const Units& o
 template <class OnHit, Timed timed>
 class UnequalDtScan {
   public:
-    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, OnHit& on_hit)
+    UnequalDtScan(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, OnHit& on_hit)
         : fine_is_a_(a.dt() < b.dt()),
           fine_(fine_is_a_ ? a : b),
           coarse_(fine_is_a_ ? b : a),
+          roots_(fine_is_a_ ? roots : RootsApart(b, a)),
           ratio_(fine_.dt() * coarse_.blocks().per_dt()),
           begin_((fine_.begin_time() - coarse_.begin_time()) * coarse_.blocks().per_dt()),
-          unsure_(timed == Timed::well ? 0 : static_cast<double>(time_error(a, b)) / fine_.dt()),
-          relation_(relate(fine_, coarse_, Shift{})),
+          unsure_(timed == Timed::well ? 0 : roots.time_error / fine_.dt()),
+          relation_(relate(fine_, coarse_, roots_, Shift{})),
           on_hit_(on_hit) {}
 
     /// Of what A and B have each, the fine clip's.
@@ -103,7 +104,7 @@ class UnequalDtScan {
         const int to = std::min(coarse.end, static_cast<int>(until_coarse(shared.end)) + 1);
         const Pace pace{from_fine(0) * kPerBlock, kPerBlock / ratio_};
         return scan_units<2 + kMore>(samples_of(coarse_), from, to, blocks_of(fine_), pace,
-                                     relate(coarse_, fine_, Shift{}), [&](int j) {
+                                     relate(coarse_, fine_, RootsApart(coarse_, fine_), Shift{}), [&](int j) {
                                          const SampleSpan one{j, j + 1};
                                          return test_samples(sharing(shared, one), one);
                                      });
@@ -175,9 +176,10 @@ class UnequalDtScan {
     const bool fine_is_a_;
     const PlacedBlocks& fine_;
     const PlacedBlocks& coarse_;
-    const double ratio_;   ///< of their dt, < 1
-    const double begin_;   ///< where the fine clip begins, in samples of the coarse one
-    const double unsure_;  ///< see unsure()
+    const RootsApart roots_;  ///< of the coarse clip against the fine one
+    const double ratio_;      ///< of their dt, < 1
+    const double begin_;      ///< where the fine clip begins, in samples of the coarse one
+    const double unsure_;     ///< see unsure()
     const Relation relation_;
     OnHit& on_hit_;
 };

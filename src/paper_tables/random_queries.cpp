@@ -41,7 +41,7 @@ std::vector<WorkloadQuery> random_queries(const std::vector<mobb::ClipPtr>& clip
         query.b.rotate_deg = uniform.within(0, 360);
         query.b.start = uniform.within(-draw.offset * clips[b]->duration(), draw.offset * clips[a]->duration());
         query.a.translate = -middles[a];
-        query.b.translate = glm::dvec2{x, y} - mobb::Rotation::from_degrees(query.b.rotate_deg)(middles[b]);
+        query.b.translate = glm::dvec2{x, y} - query.b.rotation()(middles[b]);
         queries.push_back(query);
     }
     return queries;

@@ -23,8 +23,7 @@ PlayKind read_kind(const JsonPlace& place) {
 
 /// Where the body stands and faces in the first sample's place, in the world.
 Stance placed(const Stance& stance, const mobb::Placement& placement) {
-    return {mobb::Rotation::from_degrees(placement.rotate_deg)(stance.position) + placement.translate,
-            stance.heading_deg + placement.rotate_deg};
+    return {placement.rotation()(stance.position) + placement.translate, stance.heading_deg + placement.rotate_deg};
 }
 
 class CrowdReader {

@@ -129,20 +129,19 @@ void write_stance(JsonWriter& out, const char* key, const Stance& stance) {
 
 double heading_of(glm::dvec2 way) { return std::atan2(way.y, way.x) * 180 / std::numbers::pi; }
 
-MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double duration) {
-    const mobb::Placement& at = placed.placement;
-    return {placed.rotation(exit.position) + at.translate, at.rotate_deg + exit.heading_deg, at.start + duration};
+MoveEnd end_of(const mobb::Placement& at, const Stance& exit, double duration) {
+    return {at.rotation()(exit.position) + at.translate, at.rotate_deg + exit.heading_deg, at.start + duration};
 }
 
-OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry) {
+mobb::Placement beginning_at(const MoveEnd& end, const Stance& entry) {
     // Headings add up over a long walk: kept within a turn, they stay exact.
-    OrientedPlacement next({{}, within_half_a_turn(end.heading_deg - entry.heading_deg), end.time});
-    next.placement.translate = end.position - next.rotation(entry.position);
+    mobb::Placement next{{}, within_half_a_turn(end.heading_deg - entry.heading_deg), end.time};
+    next.translate = end.position - next.rotation()(entry.position);
     return next;
 }
 
 mobb::Placement following(const mobb::Placement& before, const Stance& exit, double duration, const Stance& entry) {
-    return beginning_at(end_of(OrientedPlacement(before), exit, duration), entry).placement;
+    return beginning_at(end_of(before, exit, duration), entry);
 }
 
 std::vector<int> strong_components(int nodes, const std::vector<std::pair<int, int>>& edges) {

@@ -81,17 +81,6 @@ struct MotionGraph {
 /// Degrees from +x, counter-clockwise.
 double heading_of(glm::dvec2 way);
 
-/// A placement with the cosine and sine of its rotation, made once for all that is placed so.
-struct OrientedPlacement {
-    OrientedPlacement() = default;
-    /// Throws std::invalid_argument unless `at.rotate_deg` is finite and within mobb::kMaxDegrees.
-    explicit OrientedPlacement(const mobb::Placement& at)
-        : placement(at), rotation(mobb::Rotation::from_degrees(at.rotate_deg)) {}
-
-    mobb::Placement placement;
-    mobb::Rotation rotation;
-};
-
 /// Where and when a placed move has ended: what follows begins there.
 struct MoveEnd {
     glm::dvec2 position{0};  ///< metres
@@ -99,9 +88,9 @@ struct MoveEnd {
     double time = 0;  ///< global seconds
 };
 /// `duration`: seconds until the next move begins, as Clip::until_next.
-MoveEnd end_of(const OrientedPlacement& placed, const Stance& exit, double duration);
+MoveEnd end_of(const mobb::Placement& placed, const Stance& exit, double duration);
 /// The placement of a move that begins there.
-OrientedPlacement beginning_at(const MoveEnd& end, const Stance& entry);
+mobb::Placement beginning_at(const MoveEnd& end, const Stance& entry);
 
 /// The placement of a move that begins where another, placed, ends: one rigid motion of the floor, and `duration`
 /// seconds later, which is Clip::until_next of the move before.

@@ -213,7 +213,7 @@ TEST_F(ChoiceTest, AChoiceHasAPlanThatLastsAsLongAsAsked) {
     ReservationTable alone(moves, crowd.area, 0);
     PlanSearch search(moves, alone, crowd);
     search.start(0, 1);
-    EXPECT_FALSE(search.look(0, OrientedPlacement({{50, 50}, 0, 0})));
+    EXPECT_FALSE(search.look(0, mobb::Placement{{50, 50}, 0, 0}));
     EXPECT_TRUE(search.plan().empty());
 }
 
@@ -304,7 +304,7 @@ TEST_F(ChoiceTest, WithNobodyFreeTheLeastContactIsForcedAndTheFloorKept) {
     EXPECT_FALSE(taken.leaves_floor);
     ASSERT_EQ(taken.met, Met::play);
     const auto seconds = [&](const Candidate& candidate) {
-        const PlayedMove motion = moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement));
+        const PlayedMove motion = moves.motion(0, 1, candidate.played, candidate.placement);
         return reservations.motions().around(motion).contact_times(motion).seconds;
     };
     for (const Candidate& candidate : choice.candidates) {

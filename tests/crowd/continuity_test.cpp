@@ -174,7 +174,7 @@ CrowdAgent agent_of(const Scene& scene, const std::vector<std::pair<PlayKind, do
         Play play;
         play.kind = kind;
         play.placement = following(scene, 0, agent.plays.back().placement, 0);
-        play.placement.rotate_deg += turn_deg;
+        play.placement.rotate_deg = play.placement.rotate_deg + turn_deg;
         agent.plays.push_back(play);
     }
     return agent;

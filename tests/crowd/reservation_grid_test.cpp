@@ -34,7 +34,7 @@ class WorldTest : public ::testing::Test {
         const int move = static_cast<int>(random.below(static_cast<std::uint32_t>(moves.count())));
         const glm::dvec2 at{1.2 * area.x * (random.unit() - 0.5), 1.2 * area.y * (random.unit() - 0.5)};
         const mobb::Placement placement{at, 360 * random.unit(), begin + seconds * random.unit()};
-        return moves.motion(agent, play, move, OrientedPlacement(placement));
+        return moves.motion(agent, play, move, placement);
     }
 
     static std::vector<const PlayedMove*> pointers(const std::vector<PlayedMove>& motions) {
@@ -62,13 +62,13 @@ class WorldTest : public ::testing::Test {
         std::optional<Blocker> first;
         for (const PlayedMove& other : reserved) {
             if (other.agent == candidate.agent) continue;
-            const mobb::PlacedClip a(candidate.playable->clip(), candidate.at.placement);
-            const mobb::PlacedClip b(other.playable->clip(), other.at.placement);
+            const mobb::PlacedClip a(candidate.playable->clip(), candidate.at);
+            const mobb::PlacedClip b(other.playable->clip(), other.at);
             const auto contact = mobb::direct_search(a, b);
             if (!contact) continue;
             if (!first || std::tuple(contact->time, other.agent) < std::tuple(first->contact.time, first->agent)) {
-                first = {other.agent,       other.play, *contact, 0, other.move, other.playable->blocks.shared_clip(),
-                         other.at.placement};
+                first = {other.agent, other.play, *contact, 0, other.move, other.playable->blocks.shared_clip(),
+                         other.at};
             }
         }
         return first;
@@ -167,8 +167,8 @@ TEST_F(WorldTest, WhomSeveralMeetFirstIsWhomEachMeetsFirst) {
 TEST_F(WorldTest, TheOnlyOneThatIsMetIsFoundAmongAnyNumber) {
     // Walkers that come near the candidate's way from the side and stop before it; they are asked in the order of
     // agents.
-    const PlayedMove candidate = moves.motion(5000, 0, 0, OrientedPlacement({{0, 0}, 0, 0}));
-    const OrientedPlacement aside({{0, -2.6}, 90, 0}), other_side({{0, 2.6}, -90, 0});
+    const PlayedMove candidate = moves.motion(5000, 0, 0, mobb::Placement{{0, 0}, 0, 0});
+    const mobb::Placement aside{{0, -2.6}, 90, 0}, other_side{{0, 2.6}, -90, 0};
     for (const int count : {1, 2, 63, 64, 65, 127, 128, 129, 150, 200, 1000}) {
         ReservationGrid nobody({20, 20});
         for (int agent = 0; agent < count; ++agent) nobody.reserve(moves.motion(agent, 0, 0, aside));
@@ -218,7 +218,7 @@ TEST_F(WorldTest, TheOnlyOneThatIsMetIsFoundAmongAnyNumber) {
 
 TEST_F(WorldTest, OfContactsAtOneTimeTheFirstAgentCounts) {
     ReservationGrid reservations({20, 20});
-    const OrientedPlacement placement({{1, 2}, 30, 0});
+    const mobb::Placement placement{{1, 2}, 30, 0};
     for (const int agent : {7, 3, 5}) reservations.reserve(moves.motion(agent, agent, 0, placement));
     const PlayedMove candidate = moves.motion(3, 0, 1, placement);
     const std::optional<Blocker> found = blocker(reservations, candidate);
@@ -239,7 +239,7 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
     for (const double now : {4.0, 9.0, 15.0}) {
         reservations.forget_before(now);
         std::erase_if(reserved, [&](const PlayedMove& motion) {
-            const mobb::PlacedClip clip(motion.playable->clip(), motion.at.placement);
+            const mobb::PlacedClip clip(motion.playable->clip(), motion.at);
             return clip.time(clip.count()) <= now;
         });
         EXPECT_EQ(reservations.size(), reserved.size());
@@ -258,7 +258,7 @@ TEST_F(WorldTest, WhatHasEndedIsForgottenAndItsRoomUsedAgain) {
 
 TEST_F(WorldTest, WhatIsWithdrawnRulesNothingOut) {
     ReservationGrid reservations({20, 20});
-    const OrientedPlacement placement({{1, 2}, 30, 0});
+    const mobb::Placement placement{{1, 2}, 30, 0};
     const std::size_t first = reservations.reserve(moves.motion(1, 0, 0, placement));
     reservations.reserve(moves.motion(2, 0, 0, placement));
     const PlayedMove candidate = moves.motion(0, 0, 0, placement);
@@ -326,7 +326,7 @@ TEST(CountBefore, LeavesOutWhatEqualsTheLimit) {
 
 TEST_F(WorldTest, WhatEndsNowIsForgotten) {
     ReservationGrid reservations({20, 20});
-    const PlayedMove motion = moves.motion(1, 0, 0, OrientedPlacement({{1, 2}, 30, 3}));
+    const PlayedMove motion = moves.motion(1, 0, 0, mobb::Placement{{1, 2}, 30, 3});
     reservations.reserve(motion);
     reservations.forget_before(std::nextafter(motion.end(), 0.0));
     EXPECT_EQ(reservations.size(), 1u);
@@ -335,11 +335,11 @@ TEST_F(WorldTest, WhatEndsNowIsForgotten) {
 }
 
 TEST_F(WorldTest, WhoBeginsAtTheEarliestContactCanBeMetThen) {
-    const PlayedMove candidate = moves.motion(9, 0, 0, OrientedPlacement({{0, 0}, 0, 0}));
-    const PlayedMove ahead = moves.motion(7, 0, 0, OrientedPlacement({{3, 0}, 180, 0}));
+    const PlayedMove candidate = moves.motion(9, 0, 0, mobb::Placement{{0, 0}, 0, 0});
+    const PlayedMove ahead = moves.motion(7, 0, 0, mobb::Placement{{3, 0}, 180, 0});
     const double met = mobb::query(candidate.placed, ahead.placed)->time;
     ASSERT_GT(met, 0);
-    const PlayedMove later = moves.motion(3, 0, 0, OrientedPlacement({{1, 0}, 0, met}));
+    const PlayedMove later = moves.motion(3, 0, 0, mobb::Placement{{1, 0}, 0, met});
     ReservationGrid reservations({20, 20});
     reservations.reserve(ahead);
     reservations.reserve(later);
@@ -372,8 +372,8 @@ TEST_F(WorldTest, MemoryIsUsedAgain) {
         reservations.forget_before(now);
         std::vector<std::size_t> withdrawn;
         for (const PlayedMove& motion : motions) {
-            OrientedPlacement at = motion.at;
-            at.placement.start += now;
+            mobb::Placement at = motion.at;
+            at.start += now;
             const std::size_t reservation = reservations.reserve(moves.motion(motion.agent, round, motion.move, at));
             if (motion.agent % 3 == 0) withdrawn.push_back(reservation);
         }
@@ -393,14 +393,14 @@ TEST_F(WorldTest, WhatIsNotANumberIsRefused) {
         for (const mobb::Placement& place :
              {mobb::Placement{.translate = {bad, 0}}, mobb::Placement{.translate = {0, bad}},
               mobb::Placement{.rotate_deg = bad}, mobb::Placement{.start = bad}}) {
-            EXPECT_THROW(static_cast<void>(moves.motion(0, 0, 0, OrientedPlacement(place))), std::invalid_argument);
+            EXPECT_THROW(static_cast<void>(moves.motion(0, 0, 0, place)), std::invalid_argument);
         }
         EXPECT_THROW(ReservationGrid({bad, 10}), std::invalid_argument);
         EXPECT_THROW(ReservationGrid({10, bad}), std::invalid_argument);
     }
     EXPECT_THROW(ReservationGrid({0, 10}), std::invalid_argument);
     ReservationGrid reservations({20, 20});
-    const PlayedMove motion = moves.motion(1, 0, 0, OrientedPlacement({{1, 2}, 30, 0}));
+    const PlayedMove motion = moves.motion(1, 0, 0, mobb::Placement{{1, 2}, 30, 0});
     reservations.reserve(motion);
     const auto around = [&](const FloorRect& bounds, double begin, double end) {
         static_cast<void>(reservations.around(2, bounds, begin, end));
@@ -462,7 +462,7 @@ TEST_F(WorldTest, ContactIsMeasuredInFullUpToTheMostThatCounts) {
 TEST_F(WorldTest, AllPairsAreThoseOfOtherAgentsWithinARange) {
     ReservationGrid reservations({40, 20});
     const auto at = [&](int agent, double x, double start) {
-        return moves.motion(agent, 0, 0, OrientedPlacement({{x, 0}, 90, start}));
+        return moves.motion(agent, 0, 0, mobb::Placement{{x, 0}, 90, start});
     };
     for (int agent = 0; agent < 5; ++agent) reservations.reserve(at(agent, 4.0 * agent - 8, 100.0 * agent));
     const auto others = [&](double range) {
@@ -481,7 +481,7 @@ TEST_F(WorldTest, OutlinesHoldTheirDisksClosely) {
     for (int i = 0; i < 500; ++i) {
         const PlayedMove motion = random_motion(0, 0, {1000, 10}, 1);
         const FloorRect& bounds = motion.bounds;
-        const mobb::PlacedClip clip(motion.playable->clip(), motion.at.placement);
+        const mobb::PlacedClip clip(motion.playable->clip(), motion.at);
         FloorRect tight{glm::dvec2(1e9), glm::dvec2(-1e9)};
         for (int k = 0; k < clip.count(); ++k) {
             const mobb::Disk disk = clip.disk(k);
@@ -505,7 +505,7 @@ TEST_F(WorldTest, TouchingAWallIsNotOverIt) {
     const PlayableClip clip(std::make_shared<const mobb::Clip>(0.5, std::vector<mobb::Disk>{{0, 0, 0.5}, {1, 0, 0.5}}));
     const PlayableClip back(std::make_shared<const mobb::Clip>(0.5, std::vector<mobb::Disk>{{1, 0, 0.5}, {0, 0, 0.5}}));
     for (const double turn : {0.0, 90.0, 180.0, 270.0}) {
-        const OrientedPlacement at({{0, 0}, turn, 0});
+        const mobb::Placement at{{0, 0}, turn, 0};
         const int ahead = turn == 0 || turn == 180 ? 0 : 1;
         const auto is_on_floor = [&](double length, double width) {
             glm::dvec2 area(length);

@@ -122,10 +122,8 @@ TEST_F(Simulate, MovesAreBackToBackFromBeforeTheBeginToTheEnd) {
             forced += play.kind == PlayKind::forced;
             EXPECT_TRUE(play.kind != PlayKind::chosen || moves.origin(play.move).turn_deg == 0);
             // Nobody faces another way all at once.
-            EXPECT_EQ(
-                play.placement,
-                moves.following(before.move, OrientedPlacement(before.placement), {moves.origin(play.move).move, 0})
-                    .placement);
+            EXPECT_EQ(play.placement,
+                      moves.following(before.move, before.placement, {moves.origin(play.move).move, 0}));
         }
     }
     EXPECT_EQ(phases.size(), 24u);

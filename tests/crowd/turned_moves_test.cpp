@@ -72,7 +72,7 @@ TEST(TurnedMoves, TheRoomAfterAMoveHoldsAllThatMayFollow) {
         const MoveSet moves(fitted, rate);
         for (int i = 0; i < 36; ++i) {
             const int before = i % static_cast<int>(moves.count());
-            const OrientedPlacement at({{40.0 * i - 700, 3.0 * i}, 37.0 * i, 11.0 * i - 100});
+            const mobb::Placement at{{40.0 * i - 700, 3.0 * i}, 37.0 * i, 11.0 * i - 100};
             const auto holds = [](const MoveSet::Room& room, const FloorRect& rect) {
                 return room.bounds.low.x <= rect.low.x && room.bounds.low.y <= rect.low.y &&
                        room.bounds.high.x >= rect.high.x && room.bounds.high.y >= rect.high.y;
@@ -146,7 +146,7 @@ TEST(TurnedMoves, NobodyJumpsInAFileThatHasATurnRate) {
     CrowdRun edited = *run.crowd;
     Play& play = edited.agents[0].plays.back();
     play.kind = PlayKind::pivoted;
-    play.placement.rotate_deg += 15;
+    play.placement.rotate_deg = play.placement.rotate_deg + 15;
     run.crowd = std::make_shared<const CrowdRun>(edited);
     EXPECT_THROW(parse_scene(to_json(run), "run.json", ""), InputError);
 }
@@ -195,7 +195,7 @@ TEST(TurnedMoves, WhatIsForcedHarmsForTheFewestSeconds) {
     ASSERT_EQ(choice.kind, PlayKind::forced);
     ASSERT_EQ(choice.candidates.size(), 2u);
     const auto first_contact = [&](const Candidate& candidate) {
-        const PlayedMove motion = moves.motion(0, 1, candidate.played, OrientedPlacement(candidate.placement));
+        const PlayedMove motion = moves.motion(0, 1, candidate.played, candidate.placement);
         return reservations.motions().around(motion).contact_times(motion).first;
     };
     EXPECT_GT(first_contact(choice.candidates[0]), first_contact(choice.candidates[1]));

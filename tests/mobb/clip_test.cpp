@@ -54,6 +54,27 @@ TEST(Rotation, AgreesWithTheFormula) {
     }
 }
 
+TEST(Turn, IsOneOfDegreesOrOfCosineAndSine) {
+    EXPECT_EQ(Turn(), 0.0);
+    EXPECT_EQ(Turn(-270).rotation().s, 1);
+    EXPECT_EQ(Turn(1e9 + 90), 1e9 + 90);
+    EXPECT_FALSE(Turn(1e9 + 90).has_rotation());
+    for (double degrees = -179.5; degrees < 180; degrees += 7.3) {
+        const double radians = degrees * std::acos(-1.0) / 180;
+        const Turn exact = Turn::by(std::cos(radians), std::sin(radians));
+        EXPECT_NEAR(exact, degrees, 1e-12);
+        // Floats are scaled: what is placed keeps its size.
+        const Turn rough = Turn::by(std::cos(static_cast<float>(radians)), std::sin(static_cast<float>(radians)));
+        const auto [c, s] = rough.rotation();
+        EXPECT_NEAR(c * c + s * s, 1, 1e-15) << degrees;
+        EXPECT_NEAR(rough, degrees, 1e-5);
+        const Placement placement{.translate = {1, 2}, .rotate_deg = rough};
+        EXPECT_EQ(placement, placement);
+        EXPECT_EQ(placement.rotation().c, c);
+    }
+    EXPECT_EQ(Turn::by(0, 1).rotation().s, 1);
+}
+
 TEST(PlacedClip, RotatesAboutTheOriginThenTranslates) {
     const Clip clip(0.25, {{1, 0, 0.5}, {2, 0, 0.5}});
     const PlacedClip placed(clip, {.translate = {10, 20}, .rotate_deg = 90, .start = 3});

@@ -310,7 +310,7 @@ TEST(Query, BoxesApartByMoreThanTheSlackAreSeparated) {
     };
     EXPECT_TRUE(meet(2 * kRadius));
     EXPECT_FALSE(meet(2 * kRadius + 1e-5));
-    EXPECT_LT(PlacedBlocks(blocks, {}).slack(), 1.5e-5F);
+    EXPECT_LT(blocks.slack(), 1.5e-5F);
 }
 
 TEST(Query, ExtremeNumbersChangeNoAnswer) {

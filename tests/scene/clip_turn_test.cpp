@@ -148,7 +148,7 @@ TEST(MotionGraph, AMoveBeginsWithTheRemainderOfItsHeading) {
     }
     for (int i = 0; i < 1000; ++i) headings.push_back(1500 * (random.unit() - 0.5));
     for (const double heading : headings) {
-        const double begins = beginning_at({{1, 2}, heading, 3}, {}).placement.rotate_deg;
+        const double begins = beginning_at({{1, 2}, heading, 3}, {}).rotate_deg;
         const double expected = std::remainder(heading, 360.0);
         EXPECT_EQ(begins, expected) << heading;
         EXPECT_EQ(std::signbit(begins), std::signbit(expected)) << heading;

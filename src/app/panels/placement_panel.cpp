@@ -94,7 +94,8 @@ void placement_panel(Ui& ui) {
     bool changed =
         placement_number(ui, "x", placement.translate.x, metres("agent.x", "x"), "Where the clip's origin goes");
     changed |= placement_number(ui, "y", placement.translate.y, metres("agent.y", "y"), "Where the clip's origin goes");
-    changed |= placement_number(ui, "turned", placement.rotate_deg,
+    double degrees = placement.rotate_deg;
+    changed |= placement_number(ui, "turned", degrees,
                                 {.mark = "agent.turn",
                                  .what = "The angle",
                                  .unit = "\u00B0",
@@ -103,6 +104,7 @@ void placement_panel(Ui& ui) {
                                  .least = -1e9,
                                  .most = 1e9},
                                 "About the clip's origin, counter-clockwise");
+    placement.rotate_deg = degrees;
     changed |= placement_number(ui, "starts at", placement.start,
                                 {.mark = "agent.start",
                                  .what = "The start",

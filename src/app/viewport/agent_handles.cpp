@@ -202,9 +202,9 @@ std::optional<mobb::Placement> dragged(const HandleDrag& drag, const DrawList& l
     const glm::dvec2 before = *from - drag.pivot;
     const glm::dvec2 after = *to - drag.pivot;
     if (glm::length(before) < 1e-9 || glm::length(after) < 1e-9) return std::nullopt;
-    out.rotate_deg = drag.start.rotate_deg + degrees(std::atan2(after.y, after.x) - std::atan2(before.y, before.x));
-    out.rotate_deg = snap ? snapped(out.rotate_deg, 5) : out.rotate_deg;
-    out.rotate_deg = std::remainder(out.rotate_deg, 360);
+    double turned = drag.start.rotate_deg + degrees(std::atan2(after.y, after.x) - std::atan2(before.y, before.x));
+    if (snap) turned = snapped(turned, 5);
+    out.rotate_deg = std::remainder(turned, 360);
     // The clip turns about its own origin; moved so that the pivot stays.
     const mobb::Rotation turn = mobb::Rotation::from_degrees(out.rotate_deg - drag.start.rotate_deg);
     out.translate = drag.pivot + turn(drag.start.translate - drag.pivot);

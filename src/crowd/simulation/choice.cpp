@@ -79,12 +79,12 @@ class Chooser {
         for (std::size_t i = 0; i < moves.size(); ++i) {
             const std::optional<int> played = moves_.turned({moves[i], turn});
             if (!played) continue;
-            const OrientedPlacement* const at = placements_.at(i, turn);
+            const mobb::Placement* const at = placements_.at(i, turn);
             // A graph whose moves lead far away would in the end leave what can be placed.
             if (!at) continue;
             const PlayableClip& clip = moves_.clip(*played);
             const std::optional<FloorRect> on_floor = bounds_on_floor(clip, *at, run_.area);
-            choice_.candidates.push_back({moves[i], turn, *played, at->placement, !on_floor});
+            choice_.candidates.push_back({moves[i], turn, *played, *at, !on_floor});
             auto& motion = motions_.emplace_back();
             if (on_floor) motion.emplace(point_.agent, point_.play, *played, clip, *at, *on_floor);
             if (moves_.runs_on(point_.before.move))
@@ -128,8 +128,7 @@ class Chooser {
     void check_off_floor() {
         for (std::size_t i = 0; i < motions_.size(); ++i) {
             const Candidate& candidate = choice_.candidates[i];
-            motions_[i] =
-                moves_.motion(point_.agent, point_.play, candidate.played, OrientedPlacement(candidate.placement));
+            motions_[i] = moves_.motion(point_.agent, point_.play, candidate.played, candidate.placement);
         }
         check_against_others(0, true);
     }
@@ -290,7 +289,7 @@ class Chooser {
     const ChoicePoint& point_;
     std::vector<AskedPair>* asked_;
     std::optional<OtherAnswer> other_;
-    OrientedPlacement before_{point_.before.placement};
+    mobb::Placement before_{point_.before.placement};
     FollowingPlacements placements_{moves_};
     PlanSearch& search_;
     Choice choice_;
@@ -326,8 +325,8 @@ void reserve_plays(ReservationTable& reservations, const MoveSet& moves, const C
 /// What leads to a candidate; none behind a held move.
 std::optional<PlayedMove> joint_to(const MoveSet& moves, const ChoicePoint& point, const Candidate& candidate) {
     if (!moves.runs_on(point.before.move)) return std::nullopt;
-    return moves.joint(point.agent, point.play, point.before.move, OrientedPlacement(point.before.placement),
-                       candidate.played, candidate.turn_deg);
+    return moves.joint(point.agent, point.play, point.before.move, point.before.placement, candidate.played,
+                       candidate.turn_deg);
 }
 
 /// The same move at the same place and time.
@@ -345,8 +344,7 @@ std::optional<Blocker> blocker_of(const MoveSet& moves, const ReservationTable& 
     if (const auto joint = joint_to(moves, point, candidate)) {
         if (auto blocker = others.around(*joint).blocker(*joint)) return blocker;
     }
-    const PlayedMove motion =
-        moves.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
+    const PlayedMove motion = moves.motion(point.agent, point.play, candidate.played, candidate.placement);
     return others.around(motion).blocker(motion);
 }
 
@@ -366,12 +364,12 @@ std::optional<Play> first_play(const MoveSet& moves, const ReservationTable& res
         placement.rotate_deg = 360 * random.unit() - 180;
         placement.start = -moves.until_joint(move) * random.unit();
         // The clip's bounds, wherever its own origin is, come to lie anywhere on the floor.
-        OrientedPlacement at(placement);
+        mobb::Placement at = placement;
         const FloorRect bounds = moves.clip(move).bounds.bounds(at);
         const glm::dvec2 room = run.area - (bounds.high - bounds.low);
         const double across = random.unit(), along = random.unit();
         if (room.x < 0 || room.y < 0) continue;
-        at.placement.translate = -run.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
+        at.translate = -run.area / 2.0 + room * glm::dvec2(across, along) - bounds.low;
         if (!bounds_on_floor(moves.clip(move), at, run.area)) continue;
         const PlayedMove motion = moves.motion(agent, 0, move, at);
         const ReservationTable::Nearby nearby = reservations.nearby(motion);
@@ -380,7 +378,7 @@ std::optional<Play> first_play(const MoveSet& moves, const ReservationTable& res
         const bool has_way_on = search.look(move, at);
         // Where the floor is nearly full, any place will do.
         if (i < kTries / 2 && (!has_way_on || reservations.in_the_way(motion, nearby))) continue;
-        return Play{move, at.placement, at.placement.start, PlayKind::chosen, search.plan()};
+        return Play{move, at, at.start, PlayKind::chosen, search.plan()};
     }
     return std::nullopt;
 }
@@ -405,7 +403,7 @@ Choice choice_of(const MoveSet& moves, const CrowdRun& run, int agent, int play)
     for (Candidate& candidate : choice.candidates) {
         candidate.clip = clip_of(candidate);
         if (const auto joint = joint_to(moves, point, candidate))
-            candidate.joint = PlayJoint{joint->playable->blocks.shared_clip(), joint->at.placement};
+            candidate.joint = PlayJoint{joint->playable->blocks.shared_clip(), joint->at};
         candidate.blocker = blocker_of(moves, reservations, point, candidate);
     }
     return choice;

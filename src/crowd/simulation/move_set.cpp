@@ -81,7 +81,7 @@ MoveSet::Room MoveSet::room_of(const std::vector<Follower>& moves) const {
     Room out;
     for (const Follower& next : moves) {
         const double turn_at_once = turns_at_once() ? next.planned.turn_deg : 0;
-        const OrientedPlacement at = beginning_at({{}, turn_at_once, 0}, move(next.played).entry);
+        const mobb::Placement at = beginning_at({{}, turn_at_once, 0}, move(next.played).entry);
         const glm::dvec2 end = end_of(at, exit(next.played), 0).position;
         const FloorRect last{end - next.last.r, end + next.last.r};
         out.bounds = out.bounds.with(clip(next.played).bounds.bounds(at)).with(last);
@@ -90,7 +90,7 @@ MoveSet::Room MoveSet::room_of(const std::vector<Follower>& moves) const {
     return out;
 }
 
-MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, double most_turn_deg) const {
+MoveSet::Room MoveSet::room_after(int move, const mobb::Placement& placed, double most_turn_deg) const {
     Room all;
     for (const FollowerGroup& group : followers(move)) {
         if (std::abs(group.moves.front().planned.turn_deg) > most_turn_deg) break;
@@ -99,9 +99,9 @@ MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, dou
     return room_after(move, placed, all);
 }
 
-MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, const Room& room) const {
+MoveSet::Room MoveSet::room_after(int move, const mobb::Placement& placed, const Room& room) const {
     const MoveEnd end = end_of(placed, exit(move), until_next(move));
-    const mobb::Rotation heading = placed.rotation * exit_rotation(move);
+    const mobb::Rotation heading = placed.rotation() * exit_rotation(move);
     const glm::dvec2 half = (room.bounds.high - room.bounds.low) / 2.0;
     const glm::dvec2 center = end.position + heading(room.bounds.low + half);
     // Far more than all rounding made here and where candidates are placed.
@@ -110,7 +110,7 @@ MoveSet::Room MoveSet::room_after(int move, const OrientedPlacement& placed, con
     const double spare = 1e-6 + 1e-9 * (std::abs(end.time) + room.end);
     Room out{{center - reach, center + reach}, end.time - spare, end.time + room.end + spare};
     if (runs_on(move)) {
-        const mobb::Disk from = mobb::placed(clip(move).last, placed.rotation, placed.placement.translate);
+        const mobb::Disk from = mobb::placed(clip(move).last, placed.rotation(), placed.translate);
         const glm::dvec2 at(from.x, from.y);
         out.bounds = out.bounds.with({at - from.r - margin, at + from.r + margin});
         out.begin -= clip(move).clip().dt();
@@ -189,7 +189,7 @@ std::optional<int> MoveSet::turned(const PlannedMove& wanted) const {
     return move < 0 ? std::nullopt : std::optional(move);
 }
 
-OrientedPlacement MoveSet::following(int before, const OrientedPlacement& placed, const PlannedMove& next) const {
+mobb::Placement MoveSet::following(int before, const mobb::Placement& placed, const PlannedMove& next) const {
     Stance exit = this->exit(before);
     if (turns_at_once()) exit.heading_deg += next.turn_deg;
     return beginning_at(end_of(placed, exit, until_next(before)), move(next.move).entry);
@@ -202,16 +202,16 @@ const PlayableClip& MoveSet::joint_of(int before, const PlannedMove& next) const
     if (known != joints_->made.end()) return known->second;
     const mobb::PlacedClip from(clip(before).clip(), {});
     // However far a move turns on its way, its first disk stays.
-    const mobb::PlacedClip to(clip(next.move).clip(), following(before, {}, next).placement);
+    const mobb::PlacedClip to(clip(next.move).clip(), following(before, {}, next));
     const std::vector<mobb::Disk> ends{from.disk(from.end() - 1), runs_on_to(from, to)};
     const auto made = std::make_shared<const mobb::Clip>(from.dt(), ends, mobb::Motion::linear);
     return joints_->made.emplace(key, playable(made)).first->second;
 }
 
-PlayedMove MoveSet::joint(int agent, int play, int before, const OrientedPlacement& placed, int next,
+PlayedMove MoveSet::joint(int agent, int play, int before, const mobb::Placement& placed, int next,
                           double turn_deg) const {
-    OrientedPlacement at = placed;
-    at.placement.start += until_joint(before);
+    mobb::Placement at = placed;
+    at.start += until_joint(before);
     PlayedMove out(agent, play, next, joint_of(before, {origin(next).move, turn_deg}), at);
     out.is_joint = true;
     return out;
@@ -222,13 +222,13 @@ PlayedMove MoveSet::joint(int agent, int play, const Play& before, const Play& n
     const double heading = next.placement.rotate_deg + move(next.move).entry.heading_deg;
     const double turn = heading - before.placement.rotate_deg - exit(before.move).heading_deg;
     const double step = kTurnStep * std::round(std::remainder(turn, 360.0) / kTurnStep);
-    return joint(agent, play, before.move, OrientedPlacement(before.placement), next.move, step);
+    return joint(agent, play, before.move, before.placement, next.move, step);
 }
 
 std::vector<PlayedMove> MoveSet::planned(int agent, int index, const Play& play) const {
     std::vector<PlayedMove> out;
     int last = play.move, number = 0;
-    OrientedPlacement at(play.placement);
+    mobb::Placement at = play.placement;
     for (const PlannedMove& next : play.plan) {
         const std::optional<int> move = turned(next);
         // Where a clip was edited since, the rest of a plan may not be there any more.

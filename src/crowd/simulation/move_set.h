@@ -111,22 +111,22 @@ class MoveSet {
         return followers_[static_cast<std::size_t>(this->move(move).to)];
     }
     /// The room of a group of followers where the move before is placed, and of the joints that lead to them.
-    Room room_after(int move, const OrientedPlacement& placed, const Room& room) const;
+    Room room_after(int move, const mobb::Placement& placed, const Room& room) const;
     /// Of all followers that turn by no more than that.
-    Room room_after(int move, const OrientedPlacement& placed, double most_turn_deg) const;
+    Room room_after(int move, const mobb::Placement& placed, double most_turn_deg) const;
 
     /// Where `next` is placed after `before`.
-    OrientedPlacement following(int before, const OrientedPlacement& placed, const PlannedMove& next) const;
+    mobb::Placement following(int before, const mobb::Placement& placed, const PlannedMove& next) const;
     /// Whether that depends on how far `next` turns: where agents turn at once.
     bool turns_at_once() const { return turn_rate_ == kTurnsAtOnce; }
     /// A move as an agent's play.
-    PlayedMove motion(int agent, int play, int move, const OrientedPlacement& placed) const {
+    PlayedMove motion(int agent, int play, int move, const mobb::Placement& placed) const {
         return {agent, play, move, clip(move), placed};
     }
     /// What a move that runs on, and is placed, does from its last sample until the next one begins: a linear clip of
     /// two samples, of one dt. `turn_deg` counts where agents turn at once: before `next`. It is made when it is asked
     /// for first, and kept. Requires runs_on(before).
-    PlayedMove joint(int agent, int play, int before, const OrientedPlacement& placed, int next, double turn_deg) const;
+    PlayedMove joint(int agent, int play, int before, const mobb::Placement& placed, int next, double turn_deg) const;
     /// The same in front of a play.
     PlayedMove joint(int agent, int play, const Play& before, const Play& next) const;
     /// The moves that are planned to follow an agent's play, each behind the joint that leads to it, if there is one.
@@ -187,7 +187,7 @@ class FollowingPlacements {
     explicit FollowingPlacements(const MoveSet& moves) : moves_(moves) {}
 
     /// Begins anew, with moves that are not turned, such as MoveSet::after gives.
-    void start(int before, const OrientedPlacement& placed, const std::vector<int>& next) {
+    void start(int before, const mobb::Placement& placed, const std::vector<int>& next) {
         before_ = before;
         placed_ = placed;
         next_ = next;
@@ -196,11 +196,11 @@ class FollowingPlacements {
     }
 
     /// Of the one with that index among `next`, turned; null where it leads beyond what can be placed.
-    const OrientedPlacement* at(std::size_t index, double turn_deg) {
+    const mobb::Placement* at(std::size_t index, double turn_deg) {
         // It is the same however far a move turns on its way.
         if (states_[index] == State::unknown || moves_.turns_at_once()) {
             found_[index] = moves_.following(before_, placed_, {next_[index], turn_deg});
-            states_[index] = mobb::is_valid(found_[index].placement) ? State::valid : State::invalid;
+            states_[index] = mobb::is_valid(found_[index]) ? State::valid : State::invalid;
         }
         return states_[index] == State::valid ? &found_[index] : nullptr;
     }
@@ -210,10 +210,10 @@ class FollowingPlacements {
 
     const MoveSet& moves_;
     int before_ = 0;
-    OrientedPlacement placed_;
+    mobb::Placement placed_;
     std::span<const int> next_;
     std::vector<State> states_;
-    std::vector<OrientedPlacement> found_;  ///< of those that are known; the memory is used again
+    std::vector<mobb::Placement> found_;  ///< of those that are known; the memory is used again
 };
 
 }  // namespace mobbscope

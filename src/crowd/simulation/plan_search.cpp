@@ -20,7 +20,7 @@ void PlanSearch::Level::find_first(const std::vector<PlayedMove>& of) {
     plans.find_first(candidates, found);
 }
 
-bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const PlannedMove> kept) {
+bool PlanSearch::look(int move, const mobb::Placement& placed, std::span<const PlannedMove> kept) {
     if (tick_) tick_();
     ++looks_;
     plan_.clear();
@@ -31,7 +31,7 @@ bool PlanSearch::look(int move, const OrientedPlacement& placed, std::span<const
     if (run_.plan == 0) return true;
     if (!kept.empty()) {
         int last = move;
-        OrientedPlacement at = placed;
+        mobb::Placement at = placed;
         for (const PlannedMove& next : kept) {
             const std::optional<int> turned = moves_.turned(next);
             if (!turned) break;
@@ -52,7 +52,7 @@ void PlanSearch::add(const PlannedMove& next, double seconds) {
     longest_ = plan_;
 }
 
-bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seconds) {
+bool PlanSearch::extend(int before, const mobb::Placement& placed, double seconds) {
     if (seconds >= run_.plan && (run_.grace == 0 || !reservations_.faces_wall(before, placed))) return true;
     if (seconds >= kLongest * run_.plan) return false;
     while (levels_.size() <= plan_.size()) levels_.push_back(std::make_unique<Level>(moves_));
@@ -66,7 +66,7 @@ bool PlanSearch::extend(int before, const OrientedPlacement& placed, double seco
             const auto most = static_cast<std::size_t>(collides_ ? std::max(left_, 1) : 1);
             level.clear();
             for (; next != group.moves.end() && level.looked_at.size() < most; ++next) {
-                const OrientedPlacement* const at = level.placements.at(next->number, next->planned.turn_deg);
+                const mobb::Placement* const at = level.placements.at(next->number, next->planned.turn_deg);
                 // Most that leave the floor have left it at their end.
                 if (!at || is_over_wall(next->last, *at, run_.area)) continue;
                 const PlayableClip& clip = moves_.clip(next->played);

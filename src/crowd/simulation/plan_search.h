@@ -34,7 +34,7 @@ class PlanSearch {
     /// agent has reserved, last CrowdRun::plan seconds, and do not end facing a wall (that only with a grace, as
     /// ReservationTable::faces_wall). It first goes on from `kept`, which is known to be free.
     /// True if there are; else plan() is the longest found. It looks at so many moves and no more.
-    bool look(int move, const OrientedPlacement& placed, std::span<const PlannedMove> kept = {});
+    bool look(int move, const mobb::Placement& placed, std::span<const PlannedMove> kept = {});
 
     const std::vector<PlannedMove>& plan() const { return longest_; }  ///< what look() found
     double seconds() const { return reach_; }                          ///< that it lasts
@@ -63,7 +63,7 @@ class PlanSearch {
         void find_first(const std::vector<PlayedMove>& of);
     };
 
-    bool extend(int before, const OrientedPlacement& placed, double seconds);
+    bool extend(int before, const mobb::Placement& placed, double seconds);
     void add(const PlannedMove& next, double seconds);
 
     const MoveSet& moves_;

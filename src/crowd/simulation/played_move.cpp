@@ -15,7 +15,7 @@ ClipBounds::ClipBounds(const mobb::Clip& clip) : reach_(clip.reach()) {
     }
 }
 
-FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
+FloorRect ClipBounds::bounds(const mobb::Placement& placed) const {
     // Two corners at a time: compilers leave such a loop of single numbers as it is. Rounding keeps the order of
     // numbers: what is translated at the end is as if each corner were.
     const auto at = [](const std::array<double, kCorners>& values, std::size_t i) {
@@ -24,7 +24,7 @@ FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     mobb::TwoDoubles low_x{kFar, kFar}, low_y = low_x;
     mobb::TwoDoubles high_x = -low_x, high_y = -low_x;
-    const auto [c, s] = placed.rotation;
+    const auto [c, s] = placed.rotation();
     for (std::size_t i = 0; i < kCorners; i += 2) {
         const mobb::TwoDoubles x = c * at(x_, i) - s * at(y_, i);
         const mobb::TwoDoubles y = s * at(x_, i) + c * at(y_, i);
@@ -33,7 +33,7 @@ FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
         high_x = mobb::greatest(x, high_x);
         high_y = mobb::greatest(y, high_y);
     }
-    const glm::dvec2 translate = placed.placement.translate;
+    const glm::dvec2 translate = placed.translate;
     // Far more than all rounding made here and where disks are placed.
     const double margin = 1e-12 * (reach_ + std::abs(translate.x) + std::abs(translate.y));
     const glm::dvec2 low(std::min(low_x[0], low_x[1]), std::min(low_y[0], low_y[1]));
@@ -41,7 +41,7 @@ FloorRect ClipBounds::bounds(const OrientedPlacement& placed) const {
     return {low + translate - margin, high + translate + margin};
 }
 
-std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area) {
+std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const mobb::Placement& at, glm::dvec2 area) {
     const glm::dvec2 wall = area / 2.0;
     const auto is_over = [&](const mobb::Disk& disk) { return is_over_wall(disk, at, area); };
     // From the end, as there a move that began on the floor has left it: most that leave it need no more.

@@ -39,7 +39,7 @@ class ClipBounds {
     explicit ClipBounds(const mobb::Clip& clip);
 
     /// Holds every disk of the clip where it is placed (metres), rounding included.
-    FloorRect bounds(const OrientedPlacement& at) const;
+    FloorRect bounds(const mobb::Placement& at) const;
 
   private:
     static constexpr std::size_t kCorners = mobb::KDop::kDirections / 2;
@@ -67,39 +67,38 @@ struct PlayableClip {
 
 /// Whether a disk of a clip that is placed reaches over a wall of the floor, which goes from -area/2 to area/2
 /// (metres). Touching a wall is not over it.
-inline bool is_over_wall(const mobb::Disk& disk, const OrientedPlacement& at, glm::dvec2 area) {
-    const mobb::Disk there = mobb::placed(disk, at.rotation, at.placement.translate);
+inline bool is_over_wall(const mobb::Disk& disk, const mobb::Placement& at, glm::dvec2 area) {
+    const mobb::Disk there = mobb::placed(disk, at.rotation(), at.translate);
     // Without a branch for each, which would often be mispredicted.
     return static_cast<bool>(static_cast<unsigned>(std::abs(there.x) + there.r > area.x / 2) |
                              static_cast<unsigned>(std::abs(there.y) + there.r > area.y / 2));
 }
 
 /// The bounds of a clip where it is placed, or none if some disk is over a wall.
-std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const OrientedPlacement& at, glm::dvec2 area);
+std::optional<FloorRect> bounds_on_floor(const PlayableClip& clip, const mobb::Placement& at, glm::dvec2 area);
 
 /// A clip that an agent plays, or may play. What queries need of the place is worked out once, as it is made. Refers to
 /// the clip, which must outlive it.
 struct PlayedMove {
     /// `play_index`: among the agent's plays; `move_index`: among those of the MoveSet, -1: somebody who stands.
-    /// Throws std::invalid_argument, naming the number, unless is_valid(where.placement).
-    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
-               const OrientedPlacement& where)
+    /// Throws std::invalid_argument, naming the number, unless is_valid(where).
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip, const mobb::Placement& where)
         : PlayedMove(agent_index, play_index, move_index, clip, where, clip.bounds.bounds(where)) {}
     /// The same with the clip's bounds where it is placed.
-    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip,
-               const OrientedPlacement& where, const FloorRect& placed_bounds)
+    PlayedMove(int agent_index, int play_index, int move_index, const PlayableClip& clip, const mobb::Placement& where,
+               const FloorRect& placed_bounds)
         : agent(agent_index),
           play(play_index),
           move(move_index),
           playable(&clip),
           at(where),
-          placed(clip.blocks, where.rotation, where.placement.translate, where.placement.start),
+          placed(clip.blocks, where),
           bounds(placed_bounds) {}
 
     double begin() const { return placed.begin_time(); }  ///< global seconds
     double end() const { return placed.end_time(); }
     /// Of a clip that has a tree.
-    mobb::PlacedTree placed_tree() const { return {*playable->tree, at.placement}; }
+    mobb::PlacedTree placed_tree() const { return {*playable->tree, at}; }
 
     int agent;
     int play;               ///< a Blocker repeats it
@@ -107,7 +106,7 @@ struct PlayedMove {
     int planned = 0;        ///< 0: the play itself; else which of the moves that are planned to follow it, from 1
     bool is_joint = false;  ///< what a linear move runs on by to that one (MoveSet::joint)
     const PlayableClip* playable;
-    OrientedPlacement at;
+    mobb::Placement at;
     mobb::PlacedBlocks placed;
     FloorRect bounds;  ///< holds every disk
 };

@@ -36,14 +36,14 @@ PlayedMove ReservationTable::stand(const PlayedMove& motion) const {
     // A turned clip's last disk is as large as the clip's itself.
     const PlayableClip& standing = stand_of_clip_[static_cast<std::size_t>(moves_.move(motion.move).clip)];
     const MoveEnd end = end_of(motion.at, moves_.exit(motion.move), moves_.until_joint(motion.move));
-    OrientedPlacement at;
-    at.placement.translate = end.position;
-    at.placement.start = end.time;
+    mobb::Placement at;
+    at.translate = end.position;
+    at.start = end.time;
     return {motion.agent, motion.play, -1, standing, at};
 }
 
 void ReservationTable::reserve(int agent, int index, const Play& play) {
-    const PlayedMove motion = moves_.motion(agent, index, play.move, OrientedPlacement(play.placement));
+    const PlayedMove motion = moves_.motion(agent, index, play.move, play.placement);
     const auto place = static_cast<std::size_t>(agent);
     if (place >= plan_of_agent_.size()) {
         plan_of_agent_.resize(place + 1);
@@ -71,9 +71,9 @@ void ReservationTable::forget_before(double now) {
     stands_.forget_before(now);
 }
 
-bool ReservationTable::faces_wall(int move, const OrientedPlacement& placed) const {
-    const glm::dvec2 at = placed.rotation(moves_.exit(move).position) + placed.placement.translate;
-    const mobb::Rotation heading = placed.rotation * moves_.exit_rotation(move);
+bool ReservationTable::faces_wall(int move, const mobb::Placement& placed) const {
+    const glm::dvec2 at = placed.rotation()(moves_.exit(move).position) + placed.translate;
+    const mobb::Rotation heading = placed.rotation() * moves_.exit_rotation(move);
     const double radius = moves_.clip(move).last.r;
     const auto is_on_floor = [&](glm::dvec2 ahead) {
         const glm::dvec2 point = at + heading(ahead);

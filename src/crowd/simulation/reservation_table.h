@@ -45,7 +45,7 @@ class ReservationTable {
     /// Whether a move, where it is placed, ends too near a wall to turn round before it: neither half circle to the
     /// left nor to the right lies on the floor, at the speed with which the move ends and the set's turn rate. Of
     /// agents that turn at once, or never, whether a wall is within a metre straight ahead.
-    bool faces_wall(int move, const OrientedPlacement& placed) const;
+    bool faces_wall(int move, const mobb::Placement& placed) const;
 
   private:
     /// A disk that stands, for the grace, where a move of the set ends, from when it runs on.

@@ -148,8 +148,7 @@ class RunChecker {
             out.collides = true;
             return out;
         }
-        const PlayedMove motion =
-            moves_.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
+        const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.played, candidate.placement);
         std::vector<AskedPair> pairs;
         for (const ReservationGrid* others : {&reservations_.motions(), &reservations_.plans()})
             others->all_pairs(motion, 0, pairs);
@@ -163,7 +162,7 @@ class RunChecker {
                          pair.reserved.is_joint,
                          pair.reserved.planned > 0,
                          pair.reserved.playable->blocks.shared_clip(),
-                         pair.reserved.at.placement};
+                         pair.reserved.at};
         }
         return out.other.clip ? std::optional(std::move(out)) : std::nullopt;
     }

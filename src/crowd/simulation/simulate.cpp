@@ -121,8 +121,7 @@ class Simulator {
     void record(const Choice& choice, const ChoicePoint& point) {
         if (sample_->recorded() == Recorded::all) {
             for (const Candidate& candidate : choice.candidates) {
-                const PlayedMove motion =
-                    moves_.motion(point.agent, point.play, candidate.played, OrientedPlacement(candidate.placement));
+                const PlayedMove motion = moves_.motion(point.agent, point.play, candidate.played, candidate.placement);
                 reservations_.motions().all_pairs(motion, sample_->range(), asked_);
                 reservations_.plans().all_pairs(motion, sample_->range(), asked_);
             }
@@ -232,7 +231,7 @@ Scene QuerySample::workload(const MoveSet& moves) const {
     const auto agent = [&](const PlayedMove& motion) {
         const int move = extended.index[static_cast<std::size_t>(motion.move)];
         const int clip = out.graph->moves[static_cast<std::size_t>(move)].clip;
-        return PlacedAgent{out.clips[static_cast<std::size_t>(clip)].name, clip, motion.at.placement, -1};
+        return PlacedAgent{out.clips[static_cast<std::size_t>(clip)].name, clip, motion.at, -1};
     };
     out.queries.reserve(ordered.size());
     for (const Kept& kept : ordered)

@@ -214,9 +214,9 @@ std::optional<Blocker> Surroundings::blocker(const PlayedMove& candidate) const 
     if (!met.collides()) return out;
     ask_on(candidate, met, [&](const PlayedMove& other, const mobb::Contact& contact) {
         if (!out || std::tuple(contact.time, other.agent) < std::tuple(out->contact.time, out->agent)) {
-            out = {other.agent,        other.play,     contact,
-                   other.planned,      other.move,     other.playable->blocks.shared_clip(),
-                   other.at.placement, other.is_joint, candidate.is_joint};
+            out = {other.agent,   other.play,     contact,
+                   other.planned, other.move,     other.playable->blocks.shared_clip(),
+                   other.at,      other.is_joint, candidate.is_joint};
         }
     });
     return out;
