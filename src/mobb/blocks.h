@@ -312,6 +312,8 @@ class alignas(64) PlacedBlocks {
     }
     Disk disk_at_end(int i) const { return disk(is_linear() && i + 1 < end() ? i + 1 : i); }
     bool is_linear() const { return blocks_->is_linear(); }
+    static constexpr bool kStoredInFrame = false;  // but, of a link, in that of its clip
+    StoredDisks stored() const { return {blocks_->disks(), first(), rotation_, translate_}; }
     /// Global time at which sample i begins; time(i + 1) is when it ends (see Clip::time).
     double time(int i) const { return i < end() ? start_ + i * dt() : end_; }
     /// Seconds: not less than from start() to end_time().

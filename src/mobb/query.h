@@ -5,6 +5,7 @@
 #include <mobb/observer.h>
 #include <mobb/placed_tree.h>
 #include <mobb/traversal.h>
+#include <mobb/whole.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,31 +101,69 @@ struct IntervalCollector {
 template <class A, class B>
 IntervalCollector(const A&, const B&, std::vector<Interval>) -> IntervalCollector<A, B>;
 
-/// The earliest contact of two trees or chains, or none. The answer does not depend on the trees' kinds, only on the
-/// clips; it is that of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then
-/// prune nothing.
-template <NodeSource A, NodeSource B, TraversalObserver Observer>
+/// What is asked is traversed by its nodes; what has no tree is one leaf.
+template <NodeSource S>
+const S& nodes_of(const S& placed) {
+    return placed;
+}
+inline Whole<PlacedClip> nodes_of(const PlacedClip& placed) { return Whole(placed); }
+inline Whole<PlacedBlocks> nodes_of(const PlacedBlocks& placed) { return Whole(placed); }
+
+/// What may be asked against each other: PlacedTree, PlacedBlocks, PlacedChain and PlacedClip, in any pairing.
+template <class S>
+concept Askable = requires(const S& placed) {
+    nodes_of(placed);
+};
+
+namespace detail {
+/// on_hit as visit_hits has it, with the placed samples of both.
+template <Askable A, Askable B, TraversalObserver Observer, class OnHit>
+bool visit_hits_of(const A& a, const B& b, Observer& observer, OnHit& on_hit) {
+    // What is one leaf has no boxes to be tested below its own: that is tested against every node of a tree.
+    constexpr WalkTests walk = NodeSource<A> && NodeSource<B> ? WalkTests::time : WalkTests::time_and_boxes;
+    return visit_hits<walk>(nodes_of(a), nodes_of(b), observer, on_hit);
+}
+template <Askable S>
+const auto& samples_of(const S& placed) {
+    if constexpr (NodeSource<S>)
+        return placed.samples();
+    else
+        return placed;
+}
+}  // namespace detail
+
+/// The earliest contact of any two, or none. The answer does not depend on what they are, only on the clips; it is that
+/// of direct_search bit for bit. Trees of different time scales may be asked; their 3D boxes then prune nothing.
+template <Askable A, Askable B, TraversalObserver Observer>
 std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
     std::optional<Contact> contact;
     auto on_hit = [&](int i, int j) {
-        contact = contact_of(a.samples(), i, b.samples(), j);
+        contact = contact_of(detail::samples_of(a), i, detail::samples_of(b), j);
         return true;
     };
-    visit_hits(a, b, observer, on_hit);
+    detail::visit_hits_of(a, b, observer, on_hit);
     return contact;
 }
-template <NodeSource A, NodeSource B>
+template <Askable A, Askable B>
 std::optional<Contact> query(const A& a, const B& b) {
     NoObserver observer;
     return query(a, b, observer);
 }
 
+/// Whether any two ever collide.
+template <Askable A, Askable B>
+bool intersects(const A& a, const B& b) {
+    NoObserver observer;
+    auto on_hit = [](int, int) { return true; };
+    return detail::visit_hits_of(a, b, observer, on_hit);
+}
+
 /// All intervals of contact, earliest first.
-template <NodeSource A, NodeSource B>
+template <Askable A, Askable B>
 std::vector<Interval> contact_intervals(const A& a, const B& b) {
     NoObserver observer;
-    IntervalCollector collector{a.samples(), b.samples(), {}};
-    visit_hits(a, b, observer, collector);
+    IntervalCollector collector{detail::samples_of(a), detail::samples_of(b), {}};
+    detail::visit_hits_of(a, b, observer, collector);
     return std::move(collector.intervals);
 }
 

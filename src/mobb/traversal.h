@@ -280,6 +280,10 @@ class Traversal {
     }
 
   private:
+    static constexpr bool kBlocks = requires(const A& a, const B& b, LinkPlace& place) {
+        a.blocks(a.node(0), place);
+        b.blocks(b.node(0), place);
+    };
     enum class Side { a, b };
     /// How times and samples are compared: of held samples of which a shift is known, of others, of linear ones.
     enum class Mode { shifted, held, linear };
@@ -406,8 +410,10 @@ class Traversal {
     /// Two leaves: their blocks if both have some, else their samples.
     template <Mode mode>
     bool test_leaves(int ia, const auto& na, int ib, const auto& nb) {
-        if (a_.has_blocks(na) && b_.has_blocks(nb)) [[unlikely]]
-            return test_blocks(ia, na, ib, nb);
+        if constexpr (kBlocks) {
+            if (a_.has_blocks(na) && b_.has_blocks(nb)) [[unlikely]]
+                return test_blocks(ia, na, ib, nb);
+        }
         const PairVisit pairs =
             visit_samples<mode>(a_.samples(na), na.first, na.end(), b_.samples(nb), nb.first, nb.end());
         if constexpr (Observer::watches) observer_.sample_test(pairs.hit);
@@ -421,7 +427,9 @@ class Traversal {
         const HitSink sink{[](void* receiver, int i, int j) -> bool { return (*static_cast<OnHit*>(receiver))(i, j); },
                            &on_hit_};
         BlocksOfNodes<Observer> watched(observer_, ia, ib);
-        return detail::for_each_hit(blocks_a, blocks_b, RootsApart(blocks_a, blocks_b), sink, watched.observer());
+        const RootsApart roots(blocks_a, blocks_b);
+        return (Observer::watches || roots.meet) &&
+               detail::for_each_hit(blocks_a, blocks_b, roots, sink, watched.observer());
     }
 
     template <StoredSamples SamplesA, StoredSamples SamplesB>
