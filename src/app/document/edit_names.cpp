@@ -88,7 +88,8 @@ EditName name_of_placing(const std::string& agent, const mobb::Placement& before
     };
     note(after.translate.x != before.translate.x, "moving ", "x", formatted("x %.2f m", after.translate.x));
     note(after.translate.y != before.translate.y, "moving ", "y", formatted("y %.2f m", after.translate.y));
-    note(after.rotate_deg != before.rotate_deg, "turning ", "turned", formatted("%.1f\u00B0", after.rotate_deg));
+    note(after.rotate_deg != before.rotate_deg, "turning ", "turned",
+         formatted("%.1f\u00B0", static_cast<double>(after.rotate_deg)));
     note(after.start != before.start, "shifting ", "start", "starts at " + seconds_in_words(after.start));
     std::string title = doing + agent;
     for (const std::string& value : values) title += (&value == &values.front() ? ": " : ", ") + value;

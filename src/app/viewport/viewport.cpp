@@ -683,7 +683,7 @@ void Viewport::handle_tooltip(Ui& ui, const mobb::Placement& placement) const {
     ImGui::BeginTooltip();
     ImGui::PushFont(ui.style.mono);
     if (lit_ == Handle::move) ImGui::Text("x %.2f  y %.2f m", placement.translate.x, placement.translate.y);
-    if (lit_ == Handle::turn) ImGui::Text("%.1f\u00B0", placement.rotate_deg);
+    if (lit_ == Handle::turn) ImGui::Text("%.1f\u00B0", static_cast<double>(placement.rotate_deg));
     if (lit_ == Handle::shift) ImGui::Text("starts at %.2f s", placement.start);
     ImGui::PopFont();
     promise_words(ui, placement);
