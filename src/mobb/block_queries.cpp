@@ -90,7 +90,7 @@ bool intersects(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& 
 
 bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, HitSink sink,
                   BlockObserver* observer) {
-    return chosen_queries().for_each_hit(a, b, roots, sink, observer);
+    return (observer || roots.meet) && chosen_queries().for_each_hit(a, b, roots, sink, observer);
 }
 
 }  // namespace detail

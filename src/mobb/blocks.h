@@ -464,16 +464,15 @@ class BlockObserver {
 };
 
 namespace detail {
-/// All pairs, earliest first; `observer` may be null. Requires that the roots share time and are not known to be apart.
-/// Returns whether the sink stopped it.
+/// All pairs, earliest first. An observer, which may be null, is told of what lies below the roots, also where these do
+/// not meet; the two must share time then. Returns whether the sink stopped it.
 bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, HitSink sink,
                   BlockObserver* observer);
 }  // namespace detail
 
 /// All pairs, earliest first. Returns whether the sink stopped it.
 inline bool for_each_hit(const PlacedBlocks& a, const PlacedBlocks& b, HitSink sink) {
-    const RootsApart roots(a, b);
-    return roots.meet && detail::for_each_hit(a, b, roots, sink, nullptr);
+    return detail::for_each_hit(a, b, RootsApart(a, b), sink, nullptr);
 }
 
 /// The sets of instructions that this machine can run queries with, the fastest first; "scalar" is always the last.

@@ -427,9 +427,7 @@ class Traversal {
         const HitSink sink{[](void* receiver, int i, int j) -> bool { return (*static_cast<OnHit*>(receiver))(i, j); },
                            &on_hit_};
         BlocksOfNodes<Observer> watched(observer_, ia, ib);
-        const RootsApart roots(blocks_a, blocks_b);
-        return (Observer::watches || roots.meet) &&
-               detail::for_each_hit(blocks_a, blocks_b, roots, sink, watched.observer());
+        return detail::for_each_hit(blocks_a, blocks_b, RootsApart(blocks_a, blocks_b), sink, watched.observer());
     }
 
     template <StoredSamples SamplesA, StoredSamples SamplesB>
