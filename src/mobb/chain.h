@@ -38,7 +38,7 @@ using ChainPartPtr = std::shared_ptr<const ChainPart>;
 struct ChainLink {
     ChainPartPtr part;
     glm::dvec2 translate{0, 0};  ///< metres
-    Turn rotate_deg;             ///< degrees, or Turn::by a cosine and a sine
+    Turn rotate_deg{};           ///< degrees, or Turn::by a cosine and a sine
 };
 
 /// A node of a chain, seen in the chain's frame. Valid until the chain changes.

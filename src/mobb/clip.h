@@ -138,7 +138,7 @@ class Turn {
 /// Places a clip in the world: rotate about the clip's origin, then translate, and start at a global time.
 struct Placement {
     glm::dvec2 translate{0, 0};  ///< metres
-    Turn rotate_deg;             ///< degrees, or Turn::by a cosine and a sine
+    Turn rotate_deg{};           ///< degrees, or Turn::by a cosine and a sine
     double start = 0;            ///< seconds, global
 
     /// From the clip's frame to the world's.
