@@ -558,6 +558,8 @@ class TextRows final : public Cells {
         }
         separator_ = separator_of(whole_line());
         take_open_quotes();
+        // The first line may end within the first name.
+        separator_ = separator_of(whole_line());
         columns_.header_line = lines_.number();
         split(whole_line(), kMostColumns);
         const bool in_comment = is_row() && comment_line > 0;
