@@ -421,7 +421,6 @@ void TextLines::take_line(std::size_t from) {
         end = rest_.find('\n', known);
     whole_ = rest_.substr(0, end);
     if (whole_.ends_with('\r')) whole_.remove_suffix(1);
-    line_ = trimmed(whole_);
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     if (whole_.find('\0', std::min(from, whole_.size())) != std::string_view::npos)
         fail("holds a NUL byte; this is not a text file, or a damaged one");
@@ -432,7 +431,7 @@ bool TextLines::next() {
         if (rest_.empty() && !take_piece()) return false;
         number_ += 1 + std::exchange(joined_, 0);
         take_line(0);
-    } while (line_.empty());
+    } while (line().empty());
     return true;
 }
 

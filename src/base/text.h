@@ -156,7 +156,7 @@ class TextLines {
     bool join();
     bool empty() const { return rest_.empty() && number_ == 0; }  ///< the whole text
 
-    std::string_view line() const { return line_; }
+    std::string_view line() const { return trimmed(whole_); }
     std::string_view whole_line() const { return whole_; }  ///< with the blanks at its ends
     int number() const { return number_; }                  ///< of the line, or the first of it, from 1; 0 before any
 
@@ -170,7 +170,7 @@ class TextLines {
 
     std::string_view rest_;
     const std::string& file_;
-    std::string_view line_, whole_;
+    std::string_view whole_;
     TextPieces more_;
     std::string buffer_;  ///< of a text in pieces: what is at hand of it
     Spent spent_;         ///< for that

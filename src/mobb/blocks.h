@@ -383,7 +383,8 @@ struct RootsApart {
         if (of_a.is_short() || of_b.is_short()) {
             const glm::dvec2 va = of_a.velocity(), vb = turn(of_b.velocity()), v = vb - va;
             const glm::dvec2 there = between + (vb * (from - begin_b) - va * (from - begin_a));
-            constexpr double kNoWay = 1e-30;  // where they hardly move, any moment does
+            // Against a division by 0 alone: in 1e12 s who hardly moves gets far.
+            constexpr double kNoWay = std::numeric_limits<double>::min();
             const double moment = -(there.x * v.x + there.y * v.y) / (v.x * v.x + v.y * v.y + kNoWay);
             nearest = there + std::max(std::min(moment, until - from), 0.0) * v;
             // And as far as they move in as much time as rounding may hide.

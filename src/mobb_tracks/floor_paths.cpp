@@ -223,16 +223,19 @@ class FloorSearch {
         };
         const auto found = least(less_than, bound, [this](int i, int j, double least) { return gap_of(i, j, least); });
         if (!found || gave_up()) return std::nullopt;
-        // Samples that run may share time, and the one that begins later be there first.
-        LaggedPair pair(a_.swept(found->i), b_.swept(found->j));
-        pair.narrow();
-        const double lag = runs_ ? pair.lag() : 0;
+        double lag = 0;
+        if (runs_) {
+            // They may share time, and the one that begins later be there first.
+            LaggedPair pair(a_.swept(found->i), b_.swept(found->j));
+            pair.narrow();
+            lag = pair.lag();
+        }
         const bool a_first = lag != 0 ? lag > 0 : a_.begin(found->i) < b_.begin(found->j);
         return FloorMeeting{found->i, found->j, found->value, a_first};
     }
 
-    /// Metres between two paths that do not meet.
-    double distance() {
+    /// Metres between two paths that do not meet; none: it gave up before any two samples were measured.
+    std::optional<double> distance() {
         const auto bound = [](const Range& a, const Range& b) { return apart(a.around, b.around); };
         const auto distance = [this](int i, int j, double) {
             if (runs_) return std::max(0.0, narrowed({a_.swept(i), b_.swept(j)}).apart());
@@ -240,7 +243,8 @@ class FloorSearch {
             const Disk &a = a_.disk(i), &b = b_.disk(j);
             return std::max(0.0, std::sqrt(squared_distance(a, b)) - (a.r + b.r));
         };
-        return least(kNone, bound, distance)->value;
+        const auto found = least(kNone, bound, distance);
+        return found ? std::optional(found->value) : std::nullopt;
     }
 
   private:
@@ -311,7 +315,7 @@ FloorPaths floor_paths(const PlacedClip& clip_a, const PlacedClip& clip_b, std::
     FloorSearch search(a, b, runs, most_visits);
     FloorPaths out;
     out.meeting = search.meeting(kNone);
-    if (!out.meeting && !search.gave_up()) out.apart = search.distance();
+    if (!out.meeting && !search.gave_up()) out.apart = search.distance().value_or(0);
     if (search.gave_up()) return {};
     out.known = true;
     return out;

@@ -97,6 +97,20 @@ TEST(TextLines, OfPiecesPayForTheLongest) {
     EXPECT_EQ(Spent::all(), before);
 }
 
+TEST(TextLines, JoinInTimeThatGrowsWithThem) {
+    // Minutes, were the blanks looked at again for each line.
+    constexpr std::size_t kMany = 300'000;
+    const std::string file = "f", text = std::string(kMany, ' ') + "a" + std::string(kMany, '\n') + "b\nc\n";
+    TextLines lines(text, file);
+    ASSERT_TRUE(lines.next());
+    for (std::size_t i = 0; i < kMany; ++i) ASSERT_TRUE(lines.join());
+    EXPECT_EQ(lines.line(), "a" + std::string(kMany, '\n') + "b");
+    EXPECT_EQ(lines.number(), 1);
+    ASSERT_TRUE(lines.next());
+    EXPECT_EQ(lines.line(), "c");
+    EXPECT_EQ(lines.number(), 2 + static_cast<int>(kMany));
+}
+
 TEST(TextLines, AreTheSameOfPiecesOfAnySize) {
     using namespace std::string_literals;
     for (const std::string& text : {""s, "\n"s, "\xef\xbb\xbf a \r\n\n# b\nlast"s, "one"s, "\r\n \n x\ty \n"s}) {

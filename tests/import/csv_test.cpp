@@ -39,6 +39,7 @@ TEST(Csv, FieldsInQuotesMayGoOverLines) {
         << "its first line";
     EXPECT_TRUE(csv_refusal(header + rows + "a,2,4,0,\"x\ny\n").starts_with("f.csv: line 8, column 5"));
     EXPECT_EQ(csv_clips("id;t;x;y\n\"a\nb\";0;0;0\n\"a\nb\";1;1;0\n").at(0).id, "a\nb");
+    EXPECT_EQ(csv_clips("\"a\nnote\";id;t;x;y\n;1;0;0;0\n;1;1;1;0\n").at(0).id, "1");
 }
 
 TEST(Csv, BlanksBlankLinesQuotesLineEndsAndByteOrderMarkDoNotMatter) {

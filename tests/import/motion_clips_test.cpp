@@ -285,5 +285,17 @@ TEST(MotionClips, WarningsNameTheSamples) {
     EXPECT_TRUE(warns(clip_of(replaced(walk(even_steps(60, 4)), "0 85 0", "0 300 0")), "give unit"));
 }
 
+TEST(MotionClips, HeadingsOfAPartAreAsManyAsItsSamples) {
+    // Where times round, the part has a sample more than the whole has from there on.
+    const std::string walk = replaced(replaced(kWalker, "Time: 0.1", "Time: 1"), "10 95 30 0 0 90", "0 95 930 0 0 0");
+    ImportOptions options;
+    options.fps = 10;
+    options.trim = {0.5001, 1};
+    options.body = {{1, 0, 0.5}, {-1, 0, 0.25}};
+    const ImportedClip clip = clip_of(walk, options);
+    EXPECT_EQ(clip.headings.size(), clip.clip->samples().size());
+    for (const double heading : clip.headings) EXPECT_NEAR(heading, -90, 1e-6);
+}
+
 }  // namespace
 }  // namespace mobbscope

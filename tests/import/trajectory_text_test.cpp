@@ -302,6 +302,9 @@ TEST(TrajectoryText, WhatFitsNoFormatIsRefusedWithTheFormats) {
     }
     for (const char* text : {"", "\n \n", "# nothing here\n"})
         EXPECT_NE(text_refusal(text).find("the file has no row"), std::string::npos);
+    std::string million;
+    for (int i = 0; i < 1'000'000; ++i) million += "1 ";
+    EXPECT_NE(text_refusal(million).find("f.txt: line 1: has more than 1024 values"), std::string::npos);
 }
 
 TEST(TrajectoryText, BadRowsAreNamed) {

@@ -469,6 +469,17 @@ TEST(Blocks, RootsThatMoveMeetWhereLateDisksDo) {
     EXPECT_LT(hits, queries * 3 / 4);
 }
 
+TEST(Blocks, RootsThatMoveMeetHoweverSlowly) {
+    for (const double dt : {1e-3, 1.0, 1e5, 1e10}) {
+        std::vector<Disk> walk;
+        for (int i = -25; i <= 25; ++i) walk.push_back({2e-5 * i, 0, 1e-6});
+        const Blocks walks(std::make_shared<const Clip>(dt, walk, Motion::linear));
+        const Blocks stands(std::make_shared<const Clip>(dt, std::vector<Disk>(51, {0, 1e-6, 1e-6})));
+        EXPECT_TRUE(intersects(PlacedBlocks(walks, {}), PlacedBlocks(stands, {}))) << dt;
+        EXPECT_TRUE(intersects(PlacedBlocks(stands, {}), PlacedBlocks(walks, {}))) << dt;
+    }
+}
+
 TEST(Blocks, TheFirstThatCollidesIsFoundAmongMany) {
     Random random(74);
     for (int round = 0; round < 300; ++round) {

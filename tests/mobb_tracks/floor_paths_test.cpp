@@ -123,6 +123,16 @@ TEST(FloorPaths, SayThatTheyGaveUpRatherThanAnythingElse) {
     const FloorPaths found = floor_paths(PlacedClip(a, {}), PlacedClip(b, {}), 10'000);
     EXPECT_FALSE(found.known);
     EXPECT_FALSE(found.meeting.has_value());
+    // Whatever the last visit was for.
+    const Clip here(0.1, {{0, 0, 0.1}, {1, 0, 0.1}}), there(0.1, {{5, 0, 0.1}, {6, 0, 0.1}});
+    int known = 0;
+    for (int visits = 0; visits < 20; ++visits) {
+        const FloorPaths paths = floor_paths(PlacedClip(here, {}), PlacedClip(there, {}), visits);
+        known += paths.known ? 1 : 0;
+        EXPECT_EQ(paths.apart, paths.known ? 3.8 : 0) << visits;
+    }
+    EXPECT_GT(known, 0);
+    EXPECT_LT(known, 20);
 }
 
 }  // namespace

@@ -322,7 +322,11 @@ class MotionImport {
     SampleGrid whole_around(const SampleGrid& part) const {
         const MotionTimes& times = motion_.times();
         const double before = sample_count(times.first, part.begin, part.step) - 1;
-        return sample_grid(part.begin - before * part.step, times.last, std::nullopt, part.step, kMaxMotionSamples);
+        SampleGrid all =
+            sample_grid(part.begin - before * part.step, times.last, std::nullopt, part.step, kMaxMotionSamples);
+        // Rounded otherwise, the end may be a sample nearer.
+        all.count = std::max(all.count, static_cast<std::size_t>(before) + part.count);
+        return all;
     }
 
     /// Of a body in a part of a motion: ImportedClip::headings, as the whole motion tells them.

@@ -194,7 +194,7 @@ std::size_t numbers_in(std::span<const Field> fields) {
         std::ranges::count_if(fields, [](const Field& field) { return parse_double(field.text).has_value(); }));
 }
 
-/// What stands in the fields of a line.
+/// What stands in the fields of a line, of which no more are looked at than kMostColumns and one.
 struct FieldCounts {
     std::size_t fields = 0;
     std::size_t numbers = 0;
@@ -203,7 +203,7 @@ struct FieldCounts {
 
 FieldCounts counts_of(std::string_view line, char separator) {
     FieldCounts out;
-    for (; !line.empty(); ++out.fields) {
+    for (; !line.empty() && out.fields <= kMostColumns; ++out.fields) {
         const std::string_view field = take_word(line, separator);
         out.numbers += parse_double(field).has_value();
         out.known += known_column(field).has_value();
@@ -558,6 +558,8 @@ class TextRows final : public Cells {
         }
         separator_ = separator_of(whole_line());
         take_open_quotes();
+        // The first line may end within the first name.
+        separator_ = separator_of(whole_line());
         columns_.header_line = lines_.number();
         split(whole_line(), kMostColumns);
         const bool in_comment = is_row() && comment_line > 0;
@@ -687,11 +689,12 @@ class TextRows final : public Cells {
             constexpr std::size_t kBytes = 1 << 16;
             format_ = row_format(lines_.line(), input_.beginning(kBytes));
             if (!format_) {
-                const FieldCounts row = counts_of(lines_.line(), ' ');
-                const std::string columns = counted(row.fields, "column", "columns");
+                split(lines_.line(), kMostColumns);
+                const std::size_t numbers = numbers_in(fields_), count = fields_.size();
+                const std::string columns = counted(count, "column", "columns");
                 fail("is not a row of a trajectory file (" +
-                     (row.numbers == row.fields ? "numbers in " + columns : columns + ", not all of them numbers") +
-                     "); " + known_formats());
+                     (numbers == count ? "numbers in " + columns : columns + ", not all of them numbers") + "); " +
+                     known_formats());
             }
             if (!format_->refusal.empty()) fail(std::string(format_->refusal));
             // Who tells a rate is not TrajNet, where the camera's does not matter.

@@ -130,14 +130,15 @@ mobb::Clip whole_path(const Track& track, double metres) {
     return {1, std::move(places)};
 }
 
-std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, const mobb::Clip& whole,
-                                       std::span<const mobb::BodyDisk> body) {
-    const std::vector<double> all = mobb::headings_of(whole, body);
+std::vector<double> headings_in_part(const Track& track, std::span<const double> headings,
+                                     std::span<const TrackPoint> points) {
     std::vector<double> out;
-    for (std::size_t i = 0, at = 0; i < points.size(); ++i) {
-        while (at + 1 < all.size() && track.points[at].frame < points[i].frame) ++at;
-        const double before = out.empty() ? all[at] : out.back();
-        out.push_back(before + std::remainder(all[at] - before, kTurn));
+    const auto first = std::ranges::lower_bound(track.points, points.front().frame, {}, &TrackPoint::frame);
+    auto at = static_cast<std::size_t>(first - track.points.begin());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        while (at + 1 < headings.size() && track.points[at].frame < points[i].frame) ++at;
+        const double before = out.empty() ? headings[at] : out.back();
+        out.push_back(before + std::remainder(headings[at] - before, kTurn));
     }
     return out;
 }

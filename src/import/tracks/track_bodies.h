@@ -24,10 +24,10 @@ std::string body_remark(const TrackFile& file, double metres);
 /// All of a track's points as the samples of a clip.
 mobb::Clip whole_path(const Track& track, double metres);
 
-/// The headings of a body in motion (mobb::headings_of) at points of a track, as the whole of it tells them: degrees,
-/// without jumps from a whole turn to none.
-std::vector<double> motion_headings_at(const Track& track, std::span<const TrackPoint> points, const mobb::Clip& whole,
-                                       std::span<const mobb::BodyDisk> body);
+/// At points of a track, at least one, those of the headings of all its points: degrees, without jumps from a whole
+/// turn to none.
+std::vector<double> headings_in_part(const Track& track, std::span<const double> headings,
+                                     std::span<const TrackPoint> points);
 
 /// Those of the file likewise; of points without one that of the point before, else of the next. Empty: no point has
 /// one.

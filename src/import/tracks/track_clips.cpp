@@ -237,14 +237,8 @@ class TrackClipMaker {
             throw std::invalid_argument("its times make more than " + std::to_string(most) +
                                         " samples; check them, or lower fps");
         }
-        TrackBody body;
-        if (options_.radius) {
-            body.r = metres_of(*options_.radius, track.id, track.label);
-        } else if (options_.body) {
-            body = {mobb::body_reach(*options_.body), *options_.body};
-        } else if (!file_.has_radius) {
-            body = body_of(file_, track, common_.unit);
-        }
+        const WholeTrack& whole = whole_track(part);
+        const bool has_body = !whole.body.disks.empty();
         // A motion begins where it is trimmed; tracks keep the moments of their samples.
         const bool is_cut = file_.alone && options_.trim;
         const double begin = is_cut ? options_.trim->first : first * dt;
@@ -254,13 +248,10 @@ class TrackClipMaker {
         };
         std::vector<mobb::Disk> samples = samples_of(points);
         std::vector<double> headings;
-        if (!body.disks.empty()) headings = headings_at(file_, points);
-        if (!body.disks.empty() && headings.empty()) {
-            const mobb::Clip whole = whole_path(track, common_.unit);
-            warn_of_no_heading(whole, body.disks, facts.warnings);
-            // Who stands in the part that is taken keeps the direction in which it came, or will go.
-            if (options_.trim || points.size() < track.points.size())
-                headings = motion_headings_at(track, points, whole, body.disks);
+        if (has_body) headings = headings_at(file_, points);
+        if (has_body && headings.empty()) {
+            facts.warnings.insert(facts.warnings.end(), whole.warnings.begin(), whole.warnings.end());
+            if (!whole.headings.empty()) headings = headings_in_part(track, whole.headings, points);
         }
         if (!headings.empty()) {
             // They are sampled in place of radii.
@@ -270,13 +261,13 @@ class TrackClipMaker {
             for (const mobb::Disk& disk : samples_of(turned)) headings.push_back(disk.r);
         }
         for (mobb::Disk& disk : samples) {
-            disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : body.r};
+            disk = {disk.x * common_.unit, disk.y * common_.unit, has_radii() ? disk.r * common_.unit : whole.body.r};
         }
         count_ += samples.size();
         turn_headings(headings, put_at_origin(samples, options_.origin.value_or(Origin::keep)));
 
         ImportedClip out;
-        out.body = std::move(body.disks);
+        out.body = whole.body.disks;
         out.headings = std::move(headings);
         out.id = part.id;
         out.floor = track.scope + (track.scope.empty() || part.floor.empty() ? "" : ", floor ") + part.floor;
@@ -289,6 +280,35 @@ class TrackClipMaker {
     }
 
   private:
+    /// What the parts of a track have in common.
+    struct WholeTrack {
+        const Track* track = nullptr;
+        TrackBody body{};
+        std::vector<double> headings{};         ///< as it moves, degrees, one a point; empty: they are not asked
+        std::vector<ImportWarning> warnings{};  ///< of them
+    };
+    /// Worked out once, however many parts a track has: these come one behind the other.
+    const WholeTrack& whole_track(const TrackPart& part) {
+        const Track& track = *part.track;
+        if (whole_.track == &track) return whole_;
+        WholeTrack made{&track};
+        if (options_.radius) {
+            made.body.r = metres_of(*options_.radius, track.id, track.label);
+        } else if (options_.body) {
+            made.body = {mobb::body_reach(*options_.body), *options_.body};
+        } else if (!file_.has_radius) {
+            made.body = body_of(file_, track, common_.unit);
+        }
+        if (!made.body.disks.empty()) {
+            const mobb::Clip path = whole_path(track, common_.unit);
+            warn_of_no_heading(path, made.body.disks, made.warnings);
+            // Who stands in the part that is taken keeps the direction in which it came, or will go.
+            if (options_.trim || part.points.size() < track.points.size())
+                made.headings = mobb::headings_of(path, made.body.disks);
+        }
+        return whole_ = std::move(made);
+    }
+
     /// Rows of times of their own, and rows without any, are the samples.
     bool has_samples() const { return file_.timed || !file_.has_times; }
 
@@ -387,6 +407,7 @@ class TrackClipMaker {
     FrameClock clock_;
     JudgedTracks judged_;
     SourceFacts common_;                     ///< what holds for every track
+    WholeTrack whole_;                       ///< of the part made last
     std::size_t most_stored_ = kMaxSamples;  ///< samples that the file may have
     std::size_t most_made_ = kMaxSamples;    ///< samples that the file may become by resampling
     std::size_t most_filled_ = kMaxSamples;  ///< samples that the file may become by filling gaps
