@@ -280,7 +280,7 @@ class alignas(64) PlacedBlocks {
     /// Throws std::invalid_argument, naming the number, unless is_valid(placement, blocks.most_start()).
     PlacedBlocks(const Blocks& blocks, const Placement& placement)
         : PlacedBlocks(blocks, checked(placement, blocks.most_start()).rotation(), placement.translate, placement.start,
-                       blocks.steps(), nullptr) {}
+                       placement.start + blocks.steps() * blocks.dt(), nullptr) {}
     PlacedBlocks(const Blocks&&, const Placement&) = delete;
 
     const Blocks& blocks() const { return *blocks_; }
@@ -292,7 +292,7 @@ class alignas(64) PlacedBlocks {
     /// An upper bound in metres on |x| + |y| + r over the disks, before they are placed in the world.
     double reach() const { return link_ ? link_->chain.reach : blocks_->reach(); }
     /// Global times at which the first sample begins and the last one ends.
-    double begin_time() const { return link_ ? start_ + link_->first * dt() : start_; }
+    double begin_time() const { return begin_; }
     double end_time() const { return end_; }
     /// Of the clip, from when its first sample begins.
     PlacedFrame frame() const {
@@ -300,7 +300,7 @@ class alignas(64) PlacedBlocks {
     }
 
     /// Global time at which sample 0 begins, of the clip or of the chain.
-    double start() const { return start_; }
+    double start() const { return link_ ? link_->chain.start : begin_; }
     int first() const { return link_ ? link_->first : 0; }
     int end() const { return first() + blocks_->count(); }
     double dt() const { return blocks_->dt(); }
@@ -315,7 +315,7 @@ class alignas(64) PlacedBlocks {
     static constexpr bool kStoredInFrame = false;  // but, of a link, in that of its clip
     StoredDisks stored() const { return {blocks_->disks(), first(), rotation_, translate_}; }
     /// Global time at which sample i begins; time(i + 1) is when it ends (see Clip::time).
-    double time(int i) const { return i < end() ? start_ + i * dt() : end_; }
+    double time(int i) const { return i < end() ? start() + i * dt() : end_; }
     /// Seconds: not less than from start() to end_time().
     double longest() const { return (link_ ? link_->chain.duration : blocks_->count() * dt()) + dt(); }
 
@@ -326,31 +326,25 @@ class alignas(64) PlacedBlocks {
     // Of what is placed already: queries make these as they go, so nothing is checked again.
     /// As the clip of a tree.
     static PlacedBlocks of_tree(const Blocks& blocks, const PlacedFrame& tree) {
-        return {blocks, tree.rotation, tree.translate, tree.start, blocks.steps(), nullptr};
+        return {blocks, tree.rotation, tree.translate, tree.start, tree.start + blocks.steps() * blocks.dt(), nullptr};
     }
     /// As a link of a chain. The place must outlive it, too.
     static PlacedBlocks of_link(const Blocks& blocks, const LinkPlace& link) {
         return {blocks,
                 link.chain.rotation * link.rotation,
                 link.chain.rotation(link.translate) + link.chain.translate,
-                link.chain.start,
-                link.until,
+                link.chain.start + link.first * blocks.dt(),
+                link.chain.start + link.until * blocks.dt(),
                 &link};
     }
-    PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double start, int until,
+    PlacedBlocks(const Blocks& blocks, const Rotation& rotation, glm::dvec2 translate, double begin, double end,
                  const LinkPlace* link)
-        : blocks_(&blocks),
-          rotation_(rotation),
-          translate_(translate),
-          start_(start),
-          end_(start + until * blocks.dt()),
-          link_(link) {}
+        : blocks_(&blocks), rotation_(rotation), translate_(translate), begin_(begin), end_(end), link_(link) {}
 
     const Blocks* blocks_ = nullptr;
     Rotation rotation_;
     glm::dvec2 translate_{0};
-    double start_ = 0;  ///< of sample 0: of the clip, or of the chain
-    double end_ = 0;
+    double begin_ = 0, end_ = 0;
     const LinkPlace* link_ = nullptr;
 };
 static_assert(sizeof(PlacedBlocks) == 64);
