@@ -138,6 +138,9 @@ TEST(Identity, AChosenColumnOfFramesCountsByFps) {
     EXPECT_EQ(csv_clips(text, options)[0].clip->count(), 3);
     options.fps.reset();
     EXPECT_EQ(csv_clips(text, options)[0].clip->dt(), 1) << "else they are seconds";
+    options.columns = "frame=time";
+    options.fps = 20;
+    EXPECT_EQ(csv_clips("id,time,x,y\n1,0,0,0\n1,10,0.5,0\n1,20,1,0\n", options)[0].clip->dt(), 0.5);
 }
 
 TEST(Identity, PublicReportsAreRead) {

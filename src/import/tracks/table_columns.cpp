@@ -330,7 +330,9 @@ void TableColumns::take_by_name(Column column) {
         found.push_back(i);
         known.push_back(*here);
     }
-    if (found.empty() || (column == Column::frame && rows_[Column::t])) return;
+    const bool is_other_clock =
+        (column == Column::frame && rows_[Column::t]) || (column == Column::t && rows_[Column::frame]);
+    if (found.empty() || is_other_clock) return;
     // Of others the first counts.
     const bool must_be_one = column <= Column::r;
     if (found.size() > 1 && must_be_one) {
