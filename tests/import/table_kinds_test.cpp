@@ -261,7 +261,11 @@ TEST(TableKinds, WhatIsMissingIsSaid) {
     EXPECT_EQ(csv_refusal("1,0,0,0\n1,1,0,0\n"),
               "f.csv: line 1: there is no header; begin the file with a line that names the columns, such as t,x,y,r");
     EXPECT_NE(csv_refusal("1,0,0,car\n").find("there is no header"), std::string::npos);
-    EXPECT_NE(csv_refusal("id,t,lat,lon\n1,0,50,8\n").find("degrees: turn them into metres first"), std::string::npos);
+    for (const char* places : {"lat,lon", "x [deg],y [deg]", "x_deg,y_deg"})
+        EXPECT_NE(
+            csv_refusal(std::string("id,t,") + places + "\n1,0,50,8\n").find("are degrees: turn them into metres"),
+            std::string::npos)
+            << places;
     EXPECT_NE(csv_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns, such as x=east"),
               std::string::npos);
     EXPECT_NE(csv_refusal("id,t,z,x [px],y [px]\n1,0,0,50,8\n").find("such as x=x [px]"), std::string::npos);

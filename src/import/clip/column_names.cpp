@@ -138,6 +138,8 @@ std::optional<double> metres_of_unit(std::string_view word) {
     return word == "in" ? std::nullopt : size_of(kLengths, word);  // it is said of other things
 }
 
+bool is_unit_of_angles(std::string_view word) { return size_of(kAngles, word).has_value(); }
+
 PlainName plain_name(std::string_view name) {
     std::string text = lower(trimmed(name));
     PlainName out;
@@ -154,7 +156,7 @@ PlainName plain_name(std::string_view name) {
         if (!word.empty() && (word.back() == ']' || word.back() == ')')) word.pop_back();
         // "x_min" is the least x.
         const bool is_time = word != "min" && word != "h" && size_of(kTimes, word);
-        if (mark != std::string::npos || metres_of_unit(word) || is_time || size_of(kAngles, word)) {
+        if (mark != std::string::npos || metres_of_unit(word) || is_time || is_unit_of_angles(word)) {
             out.unit = trimmed(word);
             text.resize(unit);
         }

@@ -145,9 +145,11 @@ std::string TableColumns::likely_column(Column needed) const {
     return at == names.end() ? "" : *at;
 }
 
-/// "; or say what it is by the option columns, such as x=px".
+/// "; or say what it is by the option columns, such as x=px"; of degrees what else to do.
 std::string TableColumns::also_by_option(Column needed) const {
     const std::string likely = likely_column(needed);
+    if (has_word("lat") || has_word("latitude") || is_unit_of_angles(plain_name(likely).unit))
+        return ". Latitudes and longitudes are degrees: turn them into metres first";
     return "; or say what it is by the option columns, such as " + std::string(name(needed)) + '=' +
            (likely.empty() ? "east" : shown(likely));
 }
@@ -182,9 +184,7 @@ void TableColumns::choose_columns() {
     for (const Column needed : {Column::x, Column::y}) {
         if (rows_[needed]) continue;
         fail_in_header("the header names no column " + std::string(name(needed)) + "; it needs t,x,y,r or x,y,r" +
-                       (has_word("lat") || has_word("latitude")
-                            ? ". Latitudes and longitudes are degrees: turn them into metres first"
-                            : also_by_option(needed)));
+                       also_by_option(needed));
     }
     const std::optional<std::size_t> time = rows_[Column::t] ? rows_[Column::t]->only_column() : std::nullopt;
     const std::optional<KnownColumn> named = time ? known_column(names[*time]) : std::nullopt;
