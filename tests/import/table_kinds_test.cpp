@@ -239,7 +239,9 @@ TEST(TableKinds, OtherSignsMayPartFields) {
          {"id;t;x;y;r\n1;0;0.5;0;1\n1;1;1.5;0;1\n", "id\tt\tx\ty\tr\n1\t0\t0.5\t0\t1\n1\t1\t1.5\t0\t1\n",
           "id t x y r\n1 0 0.5 0 1\n1  1 1.5\t0 1\n", "id;t;x;y;r\n1;0;0,5;0;1\n1;1;1,5;0;1\n",
           "#id,t,x,y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n", "# made by hand\n# id, t, x, y, r\n1,0,0.5,0,1\n1,1,1.5,0,1\n",
-          "\tid\tt\tx\ty\tr\tnote\n0\t1\t0\t0.5\t0\t1\t\n1\t1\t1\t1.5\t0\t1\t\n"}) {
+          "\tid\tt\tx\ty\tr\tnote\n0\t1\t0\t0.5\t0\t1\t\n1\t1\t1\t1.5\t0\t1\t\n",
+          "id|t|x|y|r\n1|0|0.5|0|1\n1|1|1.5|0|1\n", "sep=;\nid;t;x;y;r\n1;0;0.5;0;1\n1;1;1.5;0;1\n",
+          "id,t,\"x\n[m]\",y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n"}) {
         const auto read = csv_clips(text);
         ASSERT_EQ(read.size(), 1u) << text;
         EXPECT_EQ(second(read[0]), second(plain[0])) << text;

@@ -161,8 +161,9 @@ PlainName plain_name(std::string_view name) {
             text.resize(unit);
         }
     }
+    // A name in quotes may go over lines.
     std::ranges::copy_if(text, std::back_inserter(out.word),
-                         [](char c) { return c != '_' && c != '-' && c != '.' && c != ' ' && c != '/'; });
+                         [](char c) { return std::string_view("_-./ \t\r\n").find(c) == std::string_view::npos; });
     return out;
 }
 
