@@ -35,7 +35,12 @@ TEST(Identity, IdsAreOnesWithinARecording) {
               (std::set<std::string>{"a/0/1", "b/0/1"}));
     // A room that somebody leaves is no recording; but one where there are two of an id is.
     EXPECT_EQ(csv_clips("id,t,x,y,location\n1,0,0,0,hall\n1,1,1,0,stairs\n").size(), 1u);
-    EXPECT_EQ(csv_clips("id,t,x,y,location\n1,0,0,0,hall\n1,0,9,9,stairs\n1,1,1,0,hall\n").size(), 2u);
+    for (const char* place : {"location", "camera", "file"}) {
+        const std::string rows = std::string("id,t,x,y,") + place + "\n1,0,0,0,hall\n1,1,1,0,hall\n";
+        EXPECT_EQ(csv_clips(rows + "1,0,9,9,stairs\n").size(), 2u) << place;
+    }
+    EXPECT_EQ(csv_clips("id,t,x,y,camera,scene\n1,0,0,0,a,s\n1,1,1,0,b,s\n1,0,9,9,a,u\n").size(), 2u)
+        << "within a recording one is seen by several cameras";
     EXPECT_NE(csv_refusal("id,t,x,y\n1,0,0,0\n1,0,9,9\n").find("stands already in line 2; remove one"),
               std::string::npos);
     ImportOptions chosen;

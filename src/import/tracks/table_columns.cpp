@@ -247,17 +247,24 @@ void TableColumns::settle_bodies() {
 
 void TableColumns::find_scopes() {
     if (header_line == 0 || !rows_[Column::id] || options.columns || format != "csv") return;
-    constexpr std::array<std::string_view, 23> kScopes{
-        "recordingid", "recording", "sceneid",   "scene",   "caseid", "case",   "sequenceid", "sequence",
-        "sessionid",   "session",   "videoid",   "video",   "runid",  "run",    "trialid",    "trial",
-        "experiment",  "episode",   "episodeid", "dataset", "take",   "takeid", "location"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::string word = plain_name(names[i]).word;
-        if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
-        // A room is no recording, unless the ids say so.
-        is_weak_scope = (scopes.empty() || is_weak_scope) && word == "location";
-        scopes.push_back(i);
-    }
+    constexpr std::string_view kScopes[] = {
+        "recordingid", "recording",  "sceneid",    "scene",   "caseid",    "case",    "sequenceid",
+        "sequence",    "sessionid",  "session",    "videoid", "video",     "runid",   "run",
+        "trialid",     "trial",      "experiment", "episode", "episodeid", "dataset", "take",
+        "takeid",      "scenarioid", "scenario",   "logid",   "location"};
+    // Of one recording there may be several.
+    constexpr std::string_view kOtherScopes[] = {"site",     "intersection", "camera", "cameraid", "file",
+                                                 "filename", "clip",         "clipid", "day"};
+    const auto take = [this](std::span<const std::string_view> words) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (std::ranges::find(words, plain_name(names[i]).word) != words.end()) scopes.push_back(i);
+        }
+    };
+    take(kScopes);
+    // A room is no recording, nor is a camera, unless the ids say so.
+    is_weak_scope =
+        std::ranges::all_of(scopes, [this](std::size_t i) { return plain_name(names[i]).word == "location"; });
+    if (scopes.empty()) take(kOtherScopes);
     if (!scoped || scopes.empty()) return;
     rows_.scopes = scopes;
     std::vector<std::string> said;
