@@ -60,6 +60,12 @@ bool is_mot(FirstRows rows) {
     });
 }
 
+/// Places alone, where the other columns would be what boxes hold.
+bool is_mot_without_boxes(FirstRows rows) {
+    return is_mot(rows) && std::ranges::all_of(rows, [](const std::vector<double>& row) { return row[5] == -1; }) &&
+           std::ranges::any_of(rows, [](const std::vector<double>& row) { return row[7] != -1 || row[8] != -1; });
+}
+
 /// Some of which have a place.
 bool is_mot_on_ground(FirstRows rows) {
     return is_mot(rows) &&
@@ -123,6 +129,7 @@ constexpr RowFormat kRowFormats[] = {
       "metres; one robot, 10 poses a second"},
      is_kitti},
     {"mot", "frame id _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
+    {"mot", "frame id _ _ _ _ _ x y", 0, false, "", "", {}, is_mot_without_boxes, ','},
     {"mot", "frame id _ _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
     {"mot",
      "frame id _ _ _ _ _ x y z",
