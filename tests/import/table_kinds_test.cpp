@@ -77,7 +77,7 @@ TEST(TableKinds, ColumnsGoByTheirUsualNames) {
           "pedID,time,posX,posY,r", "agent_id,seconds,x_pos,y_pos,radius", "Person ID,time [s],x [m],y [m],r [m]",
           "vehicle_id,timestamp_s,x_m,y_m,radius_m", "objid,sec,centre_x,centre_y,r", "PersID,t/s,X/m,Y/m,r/m",
           "ped,simTime,position_x,position_y,r", "traj_id,secs,Easting,Northing,r",
-          "uid,elapsed_time_s,world_x,y_world,r", "pid,time,x,y,r"}) {
+          "uid,elapsed_time_s,world_x,y_world,r", "pid,time,utm_x,y_utm,r"}) {
         const auto read =
             csv_clips(std::string(header) + "\n7,0,1,2,0.25\n7,0.5,3,4,0.25\n8,1,0,0,0.5\n8,1.5,0,0,0.5\n");
         ASSERT_EQ(read.size(), 2u) << header;
