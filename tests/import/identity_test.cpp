@@ -109,6 +109,7 @@ TEST(Identity, DatesAndTimesOfDayAreTimes) {
     EXPECT_EQ(seconds_of_clock("1970-01-01T00:00:00"), 0);
     EXPECT_EQ(seconds_of_clock("2021-06-01T12:00:00Z"), 1622548800);
     EXPECT_EQ(seconds_of_clock("2021-06-01 14:00:00.25+02:00"), 1622548800.25);
+    EXPECT_EQ(seconds_of_clock("2021-06-01 12:00:00 UTC"), 1622548800);
     EXPECT_EQ(seconds_of_clock("2021/06/01"), 1622505600);
     EXPECT_EQ(seconds_of_clock("01.06.2021"), 1622505600);
     const auto night = csv_clips("id,t,x,y\n1,23:59:59,0,0\n2,00:00:00,9,9\n1,00:00:00,1,0\n1,00:00:01,2,0\n");
