@@ -329,7 +329,13 @@ std::string shortened_to_fit(std::string_view text, const std::function<bool(con
     return shortened(text, least);
 }
 
-std::string in_quotes(std::string_view text) { return "'" + shortened(cleaned(text), kLongestQuote) + "'"; }
+std::string in_quotes(std::string_view text) {
+    // Of a line of megabytes the middle is not looked at.
+    constexpr std::size_t kEnd = 4 * kLongestQuote;
+    std::string ends;
+    if (text.size() > 2 * kEnd) text = ends.append(text.substr(0, kEnd)).append(text.substr(text.size() - kEnd));
+    return "'" + shortened(cleaned(text), kLongestQuote) + "'";
+}
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
     if (names.empty()) return "";

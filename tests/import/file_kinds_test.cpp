@@ -85,6 +85,12 @@ TEST(FileKinds, MotChallengeIsReadWhereItHasPlacesOnTheGround) {
                 "csv");
         }
     }
+    EXPECT_EQ(import_clips(folder.write("xy.txt", "1,1,-1,-1,-1,-1,1,0.5,1.5\n2,1,-1,-1,-1,-1,1,1,1.5\n"), options)
+                  .front()
+                  .clip->samples()[1]
+                  .x,
+              1)
+        << "where there is no box the last two of nine are the place";
     EXPECT_NE(input_error([&] {
                   import_clips(folder.write("b.csv", "0.5,1,2,3,4,5,6,7,8,9\n"), {});
               }).find("there is no header"),

@@ -35,7 +35,12 @@ TEST(Identity, IdsAreOnesWithinARecording) {
               (std::set<std::string>{"a/0/1", "b/0/1"}));
     // A room that somebody leaves is no recording; but one where there are two of an id is.
     EXPECT_EQ(csv_clips("id,t,x,y,location\n1,0,0,0,hall\n1,1,1,0,stairs\n").size(), 1u);
-    EXPECT_EQ(csv_clips("id,t,x,y,location\n1,0,0,0,hall\n1,0,9,9,stairs\n1,1,1,0,hall\n").size(), 2u);
+    for (const char* place : {"location", "camera", "file"}) {
+        const std::string rows = std::string("id,t,x,y,") + place + "\n1,0,0,0,hall\n1,1,1,0,hall\n";
+        EXPECT_EQ(csv_clips(rows + "1,0,9,9,stairs\n").size(), 2u) << place;
+    }
+    EXPECT_EQ(csv_clips("id,t,x,y,camera,scene\n1,0,0,0,a,s\n1,1,1,0,b,s\n1,0,9,9,a,u\n").size(), 2u)
+        << "within a recording one is seen by several cameras";
     EXPECT_NE(csv_refusal("id,t,x,y\n1,0,0,0\n1,0,9,9\n").find("stands already in line 2; remove one"),
               std::string::npos);
     ImportOptions chosen;
@@ -104,6 +109,7 @@ TEST(Identity, DatesAndTimesOfDayAreTimes) {
     EXPECT_EQ(seconds_of_clock("1970-01-01T00:00:00"), 0);
     EXPECT_EQ(seconds_of_clock("2021-06-01T12:00:00Z"), 1622548800);
     EXPECT_EQ(seconds_of_clock("2021-06-01 14:00:00.25+02:00"), 1622548800.25);
+    EXPECT_EQ(seconds_of_clock("2021-06-01 12:00:00 UTC"), 1622548800);
     EXPECT_EQ(seconds_of_clock("2021/06/01"), 1622505600);
     EXPECT_EQ(seconds_of_clock("01.06.2021"), 1622505600);
     const auto night = csv_clips("id,t,x,y\n1,23:59:59,0,0\n2,00:00:00,9,9\n1,00:00:00,1,0\n1,00:00:01,2,0\n");
@@ -138,6 +144,9 @@ TEST(Identity, AChosenColumnOfFramesCountsByFps) {
     EXPECT_EQ(csv_clips(text, options)[0].clip->count(), 3);
     options.fps.reset();
     EXPECT_EQ(csv_clips(text, options)[0].clip->dt(), 1) << "else they are seconds";
+    options.columns = "frame=time";
+    options.fps = 20;
+    EXPECT_EQ(csv_clips("id,time,x,y\n1,0,0,0\n1,10,0.5,0\n1,20,1,0\n", options)[0].clip->dt(), 0.5);
 }
 
 TEST(Identity, PublicReportsAreRead) {

@@ -77,7 +77,7 @@ TEST(TableKinds, ColumnsGoByTheirUsualNames) {
           "pedID,time,posX,posY,r", "agent_id,seconds,x_pos,y_pos,radius", "Person ID,time [s],x [m],y [m],r [m]",
           "vehicle_id,timestamp_s,x_m,y_m,radius_m", "objid,sec,centre_x,centre_y,r", "PersID,t/s,X/m,Y/m,r/m",
           "ped,simTime,position_x,position_y,r", "traj_id,secs,Easting,Northing,r",
-          "uid,elapsed_time_s,world_x,y_world,r", "pid,time,x,y,r"}) {
+          "uid,elapsed_time_s,world_x,y_world,r", "pid,time,utm_x,y_utm,r"}) {
         const auto read =
             csv_clips(std::string(header) + "\n7,0,1,2,0.25\n7,0.5,3,4,0.25\n8,1,0,0,0.5\n8,1.5,0,0,0.5\n");
         ASSERT_EQ(read.size(), 2u) << header;
@@ -239,7 +239,9 @@ TEST(TableKinds, OtherSignsMayPartFields) {
          {"id;t;x;y;r\n1;0;0.5;0;1\n1;1;1.5;0;1\n", "id\tt\tx\ty\tr\n1\t0\t0.5\t0\t1\n1\t1\t1.5\t0\t1\n",
           "id t x y r\n1 0 0.5 0 1\n1  1 1.5\t0 1\n", "id;t;x;y;r\n1;0;0,5;0;1\n1;1;1,5;0;1\n",
           "#id,t,x,y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n", "# made by hand\n# id, t, x, y, r\n1,0,0.5,0,1\n1,1,1.5,0,1\n",
-          "\tid\tt\tx\ty\tr\tnote\n0\t1\t0\t0.5\t0\t1\t\n1\t1\t1\t1.5\t0\t1\t\n"}) {
+          "\tid\tt\tx\ty\tr\tnote\n0\t1\t0\t0.5\t0\t1\t\n1\t1\t1\t1.5\t0\t1\t\n",
+          "id|t|x|y|r\n1|0|0.5|0|1\n1|1|1.5|0|1\n", "sep=;\nid;t;x;y;r\n1;0;0.5;0;1\n1;1;1.5;0;1\n",
+          "id,t,\"x\n[m]\",y,r\n1,0,0.5,0,1\n1,1,1.5,0,1\n"}) {
         const auto read = csv_clips(text);
         ASSERT_EQ(read.size(), 1u) << text;
         EXPECT_EQ(second(read[0]), second(plain[0])) << text;
@@ -261,7 +263,11 @@ TEST(TableKinds, WhatIsMissingIsSaid) {
     EXPECT_EQ(csv_refusal("1,0,0,0\n1,1,0,0\n"),
               "f.csv: line 1: there is no header; begin the file with a line that names the columns, such as t,x,y,r");
     EXPECT_NE(csv_refusal("1,0,0,car\n").find("there is no header"), std::string::npos);
-    EXPECT_NE(csv_refusal("id,t,lat,lon\n1,0,50,8\n").find("degrees: turn them into metres first"), std::string::npos);
+    for (const char* places : {"lat,lon", "x [deg],y [deg]", "x_deg,y_deg"})
+        EXPECT_NE(
+            csv_refusal(std::string("id,t,") + places + "\n1,0,50,8\n").find("are degrees: turn them into metres"),
+            std::string::npos)
+            << places;
     EXPECT_NE(csv_refusal("id,t,east,north\n1,0,50,8\n").find("say what it is by the option columns, such as x=east"),
               std::string::npos);
     EXPECT_NE(csv_refusal("id,t,z,x [px],y [px]\n1,0,0,50,8\n").find("such as x=x [px]"), std::string::npos);

@@ -93,13 +93,15 @@ const std::vector<Aliases>& aliases() {
          {"x", "cx", "xcenter", "xcentre", "centerx", "centrex", "posx", "xpos", "positionx", "xposition", "coordx",
           "xcoord", "xcoordinate"}},
         {Column::x, {"localx"}, false, "ft"},
-        {Column::x, {"easting", "worldx", "xworld", "personx", "vehiclex", "coordcentx", "coordfrontx", "prsrx"}, true},
+        {Column::x,
+         {"easting", "utmx", "xutm", "worldx", "xworld", "personx", "vehiclex", "coordcentx", "coordfrontx", "prsrx"},
+         true},
         {Column::y,
          {"y", "cy", "ycenter", "ycentre", "centery", "centrey", "posy", "ypos", "positiony", "yposition", "coordy",
           "ycoord", "ycoordinate"}},
         {Column::y, {"localy"}, false, "ft"},
         {Column::y,
-         {"northing", "worldy", "yworld", "persony", "vehicley", "coordcenty", "coordfronty", "prsry"},
+         {"northing", "utmy", "yutm", "worldy", "yworld", "persony", "vehicley", "coordcenty", "coordfronty", "prsry"},
          true},
         {Column::r, {"r", "radius"}},
         {Column::r, {"diameter"}, true, "", 0.5},
@@ -138,6 +140,8 @@ std::optional<double> metres_of_unit(std::string_view word) {
     return word == "in" ? std::nullopt : size_of(kLengths, word);  // it is said of other things
 }
 
+bool is_unit_of_angles(std::string_view word) { return size_of(kAngles, word).has_value(); }
+
 PlainName plain_name(std::string_view name) {
     std::string text = lower(trimmed(name));
     PlainName out;
@@ -154,13 +158,14 @@ PlainName plain_name(std::string_view name) {
         if (!word.empty() && (word.back() == ']' || word.back() == ')')) word.pop_back();
         // "x_min" is the least x.
         const bool is_time = word != "min" && word != "h" && size_of(kTimes, word);
-        if (mark != std::string::npos || metres_of_unit(word) || is_time || size_of(kAngles, word)) {
+        if (mark != std::string::npos || metres_of_unit(word) || is_time || is_unit_of_angles(word)) {
             out.unit = trimmed(word);
             text.resize(unit);
         }
     }
+    // A name in quotes may go over lines.
     std::ranges::copy_if(text, std::back_inserter(out.word),
-                         [](char c) { return c != '_' && c != '-' && c != '.' && c != ' ' && c != '/'; });
+                         [](char c) { return std::string_view("_-./ \t\r\n").find(c) == std::string_view::npos; });
     return out;
 }
 

@@ -44,5 +44,7 @@ std::optional<KnownColumn> known_column(std::string_view name);
 
 /// Metres of a unit of length in a table or a remark: "m", "centimetres", "ft"; nothing for other words.
 std::optional<double> metres_of_unit(std::string_view word);
+/// "deg", "rad", ...
+bool is_unit_of_angles(std::string_view word);
 
 }  // namespace mobbscope

@@ -70,9 +70,9 @@ std::optional<double> take_time(std::string_view& text) {
     return 3600.0 * *hour + 60.0 * *minute + seconds;
 }
 
-/// "Z", "+02:00" or "+0200": seconds ahead of UTC.
+/// "Z", " UTC", "+02:00" or "+0200": seconds ahead of UTC.
 std::optional<double> take_zone(std::string_view& text) {
-    if (text.empty() || text == "Z" || text == "z") {
+    if (text.empty() || text == "Z" || text == "z" || text == " UTC") {
         text = {};
         return 0;
     }

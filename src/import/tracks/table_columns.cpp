@@ -145,9 +145,11 @@ std::string TableColumns::likely_column(Column needed) const {
     return at == names.end() ? "" : *at;
 }
 
-/// "; or say what it is by the option columns, such as x=px".
+/// "; or say what it is by the option columns, such as x=px"; of degrees what else to do.
 std::string TableColumns::also_by_option(Column needed) const {
     const std::string likely = likely_column(needed);
+    if (has_word("lat") || has_word("latitude") || is_unit_of_angles(plain_name(likely).unit))
+        return ". Latitudes and longitudes are degrees: turn them into metres first";
     return "; or say what it is by the option columns, such as " + std::string(name(needed)) + '=' +
            (likely.empty() ? "east" : shown(likely));
 }
@@ -182,9 +184,7 @@ void TableColumns::choose_columns() {
     for (const Column needed : {Column::x, Column::y}) {
         if (rows_[needed]) continue;
         fail_in_header("the header names no column " + std::string(name(needed)) + "; it needs t,x,y,r or x,y,r" +
-                       (has_word("lat") || has_word("latitude")
-                            ? ". Latitudes and longitudes are degrees: turn them into metres first"
-                            : also_by_option(needed)));
+                       also_by_option(needed));
     }
     const std::optional<std::size_t> time = rows_[Column::t] ? rows_[Column::t]->only_column() : std::nullopt;
     const std::optional<KnownColumn> named = time ? known_column(names[*time]) : std::nullopt;
@@ -247,17 +247,24 @@ void TableColumns::settle_bodies() {
 
 void TableColumns::find_scopes() {
     if (header_line == 0 || !rows_[Column::id] || options.columns || format != "csv") return;
-    constexpr std::array<std::string_view, 23> kScopes{
-        "recordingid", "recording", "sceneid",   "scene",   "caseid", "case",   "sequenceid", "sequence",
-        "sessionid",   "session",   "videoid",   "video",   "runid",  "run",    "trialid",    "trial",
-        "experiment",  "episode",   "episodeid", "dataset", "take",   "takeid", "location"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::string word = plain_name(names[i]).word;
-        if (std::ranges::find(kScopes, word) == kScopes.end()) continue;
-        // A room is no recording, unless the ids say so.
-        is_weak_scope = (scopes.empty() || is_weak_scope) && word == "location";
-        scopes.push_back(i);
-    }
+    constexpr std::string_view kScopes[] = {
+        "recordingid", "recording",  "sceneid",    "scene",   "caseid",    "case",    "sequenceid",
+        "sequence",    "sessionid",  "session",    "videoid", "video",     "runid",   "run",
+        "trialid",     "trial",      "experiment", "episode", "episodeid", "dataset", "take",
+        "takeid",      "scenarioid", "scenario",   "logid",   "location"};
+    // Of one recording there may be several.
+    constexpr std::string_view kOtherScopes[] = {"site",     "intersection", "camera", "cameraid", "file",
+                                                 "filename", "clip",         "clipid", "day"};
+    const auto take = [this](std::span<const std::string_view> words) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (std::ranges::find(words, plain_name(names[i]).word) != words.end()) scopes.push_back(i);
+        }
+    };
+    take(kScopes);
+    // A room is no recording, nor is a camera, unless the ids say so.
+    is_weak_scope =
+        std::ranges::all_of(scopes, [this](std::size_t i) { return plain_name(names[i]).word == "location"; });
+    if (scopes.empty()) take(kOtherScopes);
     if (!scoped || scopes.empty()) return;
     rows_.scopes = scopes;
     std::vector<std::string> said;
@@ -330,7 +337,9 @@ void TableColumns::take_by_name(Column column) {
         found.push_back(i);
         known.push_back(*here);
     }
-    if (found.empty() || (column == Column::frame && rows_[Column::t])) return;
+    const bool is_other_clock =
+        (column == Column::frame && rows_[Column::t]) || (column == Column::t && rows_[Column::frame]);
+    if (found.empty() || is_other_clock) return;
     // Of others the first counts.
     const bool must_be_one = column <= Column::r;
     if (found.size() > 1 && must_be_one) {

@@ -60,6 +60,12 @@ bool is_mot(FirstRows rows) {
     });
 }
 
+/// Places alone, where the other columns would be what boxes hold.
+bool is_mot_without_boxes(FirstRows rows) {
+    return is_mot(rows) && std::ranges::all_of(rows, [](const std::vector<double>& row) { return row[5] == -1; }) &&
+           std::ranges::any_of(rows, [](const std::vector<double>& row) { return row[7] != -1 || row[8] != -1; });
+}
+
 /// Some of which have a place.
 bool is_mot_on_ground(FirstRows rows) {
     return is_mot(rows) &&
@@ -123,6 +129,7 @@ constexpr RowFormat kRowFormats[] = {
       "metres; one robot, 10 poses a second"},
      is_kitti},
     {"mot", "frame id _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
+    {"mot", "frame id _ _ _ _ _ x y", 0, false, "", "", {}, is_mot_without_boxes, ','},
     {"mot", "frame id _ _ _ _ _ _ _ _", 0, false, "", "", {}, is_mot, ',', kMotBoxes},
     {"mot",
      "frame id _ _ _ _ _ x y z",
@@ -143,7 +150,7 @@ constexpr std::string_view kIdFirst = "id frame x y";
 
 /// Between fields; ' ' stands for any number of blanks.
 char separator_of(std::string_view header) {
-    std::array<std::pair<char, int>, 3> counts{{{',', 0}, {';', 0}, {'\t', 0}}};
+    std::array<std::pair<char, int>, 4> counts{{{',', 0}, {';', 0}, {'\t', 0}, {'|', 0}}};
     bool quoted = false;
     for (const char c : header) {
         quoted = quoted != (c == '"');
@@ -153,8 +160,10 @@ char separator_of(std::string_view header) {
     return most->second > 0 ? most->first : ' ';
 }
 
-/// Lines ahead of the header in VISSIM's files.
-bool is_vissim_comment(std::string_view line) { return line.starts_with('*') || line.starts_with("$VISION"); }
+/// Lines ahead of the header in VISSIM's files, and the one that tells Excel what parts fields.
+bool is_ahead_of_header(std::string_view line) {
+    return line.starts_with('*') || line.starts_with("$VISION") || lower(line.substr(0, 4)) == "sep=";
+}
 
 bool is_gap(char c) { return c == ' ' || c == '\t'; }
 
@@ -545,7 +554,7 @@ class TextRows final : public Cells {
         bool found = false;
         while (!found && lines_.next()) {
             const std::string_view line = lines_.line();
-            found = !line.starts_with('#') && !is_vissim_comment(line);
+            found = !line.starts_with('#') && !is_ahead_of_header(line);
             if (found || line[0] != '#') continue;
             comment = line.substr(1);
             comment_line = lines_.number();
@@ -846,7 +855,7 @@ bool looks_like_table(std::string_view text) {
     text = without_mark(text);
     if (is_row_format_of_commas(text)) return false;
     std::string_view line = take_row(text);
-    while (is_vissim_comment(line)) line = take_row(text);
+    while (is_ahead_of_header(line)) line = take_row(text);
     const bool is_text = std::ranges::none_of(line, [](char c) { return c >= 0 && c < ' ' && c != '\t'; });
     if (line.empty() || !is_text || std::string_view("{[<").find(line[0]) != std::string_view::npos) return false;
     const char separator = separator_of(line);
