@@ -11,6 +11,7 @@
 #include <scene/scene_json.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <queue>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -26,6 +28,8 @@ namespace mobbscope::cli {
 namespace {
 
 using Layout = JsonWriter::Layout;
+
+constexpr std::array<std::string_view, 3> kFormatNames{"text", "json", "csv"};  ///< by ListingFormat
 
 /// Keeps who is connected with whom while the rows are written.
 class Chains {
@@ -87,6 +91,7 @@ void write_json(const ConflictListing& listing) {
     if (listing.part) {
         out.member("part", std::initializer_list<double>{double(listing.part->part), double(listing.part->parts)});
         out.member("digest", digest_text(listing.digest));
+        out.member("format", kFormatNames[static_cast<std::size_t>(listing.format)]);
     }
     Chains chains;
     out.begin_array("conflicts");
@@ -336,6 +341,12 @@ class PartReader {
         const auto [number, of] = read_numbers(in, "part", 1, kMostParts);
         head_.part = {number, of};
         head_.digest = read_digest(in.require("digest"));
+        // Of older versions nobody knows.
+        if (const auto format = in.find("format")) {
+            const auto name = std::ranges::find(kFormatNames, format->string());
+            if (name == kFormatNames.end()) format->fail("is none of text, json and csv; ask for this part again");
+            head_.format = static_cast<ListingFormat>(name - kFormatNames.begin());
+        }
         head_.file = in.require("file").string();
         head_.t0 = optional_number(in, "t0");
         head_.agents = static_cast<std::size_t>(in.require("agents").integer(0, kMostAgents));
@@ -398,8 +409,8 @@ bool ConflictListing::is_of_the_same(const ConflictListing& other) const {
     return of(*this) == of(other);
 }
 
-void write_listing(const ConflictListing& listing, ListingFormat format) {
-    switch (format) {
+void write_listing(const ConflictListing& listing) {
+    switch (listing.part ? ListingFormat::json : listing.format) {
         case ListingFormat::text:
             return write_text(listing);
         case ListingFormat::json:

@@ -43,7 +43,10 @@ struct ListedPart {
     int part = 0, parts = 0;  ///< from 1
 };
 
+enum class ListingFormat { text, json, csv };
+
 struct ConflictListing {
+    ListingFormat format = ListingFormat::text;  ///< of a part: of the whole
     std::string file;
     std::optional<double> t0;
     std::size_t agents = 0;
@@ -67,10 +70,8 @@ struct ConflictListing {
     bool is_of_the_same(const ConflictListing& other) const;
 };
 
-enum class ListingFormat { text, json, csv };
-
-/// To standard output.
-void write_listing(const ConflictListing& listing, ListingFormat format);
+/// To standard output; a part always as JSON.
+void write_listing(const ConflictListing& listing);
 
 /// The whole of files that write_listing has written of each part, in any order, of which a row each is in memory. The
 /// files must stay as they are. Throws InputError, naming the file, for one that is cut off, belongs to another whole,

@@ -212,7 +212,10 @@ ListedConflict listed_conflict(const Findings& findings, std::size_t index, std:
 ConflictListing listing_of(const Findings& findings, const ConflictsCommandArguments& arguments) {
     const mobb::PeopleConflicts& found = findings.conflicts;
     const Crowd& crowd = findings.crowd;
-    return {shown_name(crowd.file()),
+    return {arguments.json  ? ListingFormat::json
+            : arguments.csv ? ListingFormat::csv
+                            : ListingFormat::text,
+            shown_name(crowd.file()),
             crowd.t0(),
             crowd.people(),
             crowd.common_radius(),
@@ -268,16 +271,14 @@ int run_conflicts(const ConflictsCommandArguments& arguments) {
     const mobb::PeopleConflicts conflicts(std::move(clips), crowd.person_of(), search);
     Findings findings{crowd, conflicts, unforced};
     findings.list(arguments.strict_motion);
-    write_listing(listing_of(findings, arguments), arguments.json || arguments.part ? ListingFormat::json
-                                                   : arguments.csv                  ? ListingFormat::csv
-                                                                                    : ListingFormat::text);
+    write_listing(listing_of(findings, arguments));
     flush_results();
     return arguments.check && !findings.listed.empty() ? kFailed : kDone;
 }
 
 void add_conflicts_options(Command& command, ConflictsCommandArguments& arguments) {
     const Option json = add_fitted_options(command, arguments, "The same as JSON", Brute::allowed);
-    const Option csv = command.add_flag("--csv", arguments.csv, "The same as CSV, a row a pair").excludes(json);
+    command.add_flag("--csv", arguments.csv, "The same as CSV, a row a pair").excludes(json);
     const auto within = number_within(0, mobb::kMaxLength), seconds = number_within(0, mobb::kMaxTime);
     command.add_option(
         "--within", [&arguments, within](const std::string& text) { arguments.within = within(text); },
@@ -286,11 +287,9 @@ void add_conflicts_options(Command& command, ConflictsCommandArguments& argument
     command.add_option(
         "--min-duration", [&arguments, seconds](const std::string& text) { arguments.least_seconds = seconds(text); },
         "Only who stays so close for so many seconds at a time", "S");
-    command
-        .add_option(
-            "--part", [&arguments](const std::string& text) { arguments.part = parse_part(text); },
-            "One of N parts in space and time, as JSON; merge puts all of them together", "K/N")
-        .excludes(csv);
+    command.add_option(
+        "--part", [&arguments](const std::string& text) { arguments.part = parse_part(text); },
+        "One of N parts in space and time, as JSON; merge puts all of them together", "K/N");
     command.add_flag("--check", arguments.check, "Status 1 if there is a conflict");
     command.add_flag("--strict-motion", arguments.strict_motion,
                      "Without conflicts that rest on gaps that were filled, or on what is too fast");

@@ -15,17 +15,18 @@ struct MergeArguments {
 };
 
 void run_merge(const MergeArguments& arguments) {
-    const ConflictListing whole = merged_listing(arguments.files);
-    write_listing(whole, arguments.json  ? ListingFormat::json
-                         : arguments.csv ? ListingFormat::csv
-                                         : ListingFormat::text);
+    ConflictListing whole = merged_listing(arguments.files);
+    if (arguments.json) whole.format = ListingFormat::json;
+    if (arguments.csv) whole.format = ListingFormat::csv;
+    write_listing(whole);
     flush_results();
 }
 
 void add_merge_options(Command& command, MergeArguments& arguments) {
     command.add_option("PART", arguments.files, "What conflicts --part has written, all parts of one whole").required();
-    const Option json = command.add_flag("--json", arguments.json, "The whole as JSON");
-    command.add_flag("--csv", arguments.csv, "The whole as CSV").excludes(json);
+    const Option json =
+        command.add_flag("--json", arguments.json, "The whole as JSON, whatever its parts were asked for as");
+    command.add_flag("--csv", arguments.csv, "The whole as CSV, likewise").excludes(json);
 }
 
 }  // namespace

@@ -161,6 +161,10 @@ TEST_F(MergeCommand, GivesTheWholeByteForByte) {
 TEST_F(MergeCommand, OfPlansToo) {
     const std::string file =
         folder.write("plan.txt", "0:(0,0),(2,0),(5,5),\n1:(1,0),(1,0),(5,5),\n2:(2,0),(0,0),(5,5),\n");
+    // The whole is of the format that its parts were asked for in, unless merge is asked for another.
+    for (const char* option : {"--json", "--csv"})
+        EXPECT_EQ(run_program(merge(parts({"conflicts", file, option}, 3))).out,
+                  run_program({"conflicts", file, option}).out);
     EXPECT_EQ(run_program(merge(parts({"conflicts", file}, 3), "--json")).out,
               run_program({"conflicts", file, "--json"}).out);
 }
