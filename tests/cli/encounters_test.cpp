@@ -225,7 +225,7 @@ TEST_F(MergeCommand, RefusesWhatIsNoWhole) {
         folder.write("part2.json", wrong.replace(numbers, right.find(']', numbers) + 1 - numbers, agents.dump()));
         const Result refused = run_program(merge(files));
         expect_refused(refused, 2, "ask for this part again");
-        EXPECT_NE(refused.err.find("part2.json: line 13: is not as it was written"), std::string::npos) << refused.err;
+        EXPECT_NE(refused.err.find("part2.json: line 14: is not as it was written"), std::string::npos) << refused.err;
     }
     json wrong = json::parse(right);
     folder.write("part2.json", wrong.dump());
