@@ -47,12 +47,12 @@ struct RowFormat {
     std::string_view columns;  ///< in their order, as a header would name them; "_" is ignored
     double rate;               ///< frames per second that are assumed where no comment tells it; 0: none are
     bool rate_of_steps;        ///< see TrackFile
+    char separator;            ///< between numbers; ' ' stands for any number of blanks
     std::string_view as_in;    ///< why that rate
     std::string_view hint;     ///< what tells it, for a message
     FormatNote note;
     /// Of several with as many columns: whether the first rows are of this one; the last such counts.
     bool (*holds)(std::span<const std::vector<double>> rows) = nullptr;
-    char separator = ' ';        ///< between numbers; ' ' stands for any number of blanks
     std::string_view refusal{};  ///< why it is not read, and what to do; empty: it is
 };
 
