@@ -213,7 +213,7 @@ std::string formatted(const char* format, ...) {
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
-    // Of several files clang-tidy knows va_start in the first one alone (LLVM bug 41311).
+    // Of several files clang-tidy knows va_start in the first one alone.
     const int size = std::vsnprintf(nullptr, 0, format, arguments);  // NOLINT(clang-analyzer-valist.Uninitialized)
     std::string out(static_cast<std::size_t>(std::max(0, size)), '\0');
     std::vsnprintf(out.data(), out.size() + 1, format, again);  // NOLINT(clang-analyzer-valist.Uninitialized)
