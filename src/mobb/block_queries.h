@@ -9,7 +9,7 @@
 
 namespace mobb {
 
-/// `first_hit`, `intersects` and `for_each_hit` require that the roots meet.
+/// `first_hit`, `intersects` and, where nobody watches, `for_each_hit` require that the roots meet.
 struct BlockQueries {
     bool (*first_hit)(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots, SamplePair& pair);
     bool (*intersects)(const PlacedBlocks& a, const PlacedBlocks& b, const RootsApart& roots);

@@ -287,8 +287,6 @@ class alignas(64) PlacedBlocks {
     /// From the clip's frame to the world's.
     const Rotation& rotation() const { return rotation_; }
     glm::dvec2 translate() const { return translate_; }
-    /// Where the origin of the blocks lies in the world.
-    glm::dvec2 center() const { return rotation_(blocks_->origin()) + translate_; }
     /// An upper bound in metres on |x| + |y| + r over the disks, before they are placed in the world.
     double reach() const { return link_ ? link_->chain.reach : blocks_->reach(); }
     /// Global times at which the first sample begins and the last one ends.
@@ -389,8 +387,6 @@ struct RootsApart {
                                  static_cast<unsigned>(nearest.x * nearest.x + nearest.y * nearest.y <= reach * reach));
     }
 };
-/// Whether two share time and their roots may meet: without that they do not collide.
-inline bool roots_meet(const PlacedBlocks& a, const PlacedBlocks& b) { return RootsApart(a, b).meet; }
 
 /// Is told of the pairs of samples that collide, in order of time; says whether to stop.
 struct HitSink {

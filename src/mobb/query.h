@@ -101,7 +101,7 @@ struct IntervalCollector {
 template <class A, class B>
 IntervalCollector(const A&, const B&, std::vector<Interval>) -> IntervalCollector<A, B>;
 
-/// What is asked is traversed by its nodes; what has no tree is one leaf.
+/// What is asked is traversed by its nodes; what has no tree is one leaf. The samples of either are of what is placed.
 template <NodeSource S>
 const S& nodes_of(const S& placed) {
     return placed;
@@ -123,13 +123,6 @@ bool visit_hits_of(const A& a, const B& b, Observer& observer, OnHit& on_hit) {
     constexpr WalkTests walk = NodeSource<A> && NodeSource<B> ? WalkTests::time : WalkTests::time_and_boxes;
     return visit_hits<walk>(nodes_of(a), nodes_of(b), observer, on_hit);
 }
-template <Askable S>
-const auto& samples_of(const S& placed) {
-    if constexpr (NodeSource<S>)
-        return placed.samples();
-    else
-        return placed;
-}
 }  // namespace detail
 
 /// The earliest contact of any two, or none. The answer does not depend on what they are, only on the clips; it is that
@@ -138,7 +131,7 @@ template <Askable A, Askable B, TraversalObserver Observer>
 std::optional<Contact> query(const A& a, const B& b, Observer& observer) {
     std::optional<Contact> contact;
     auto on_hit = [&](int i, int j) {
-        contact = contact_of(detail::samples_of(a), i, detail::samples_of(b), j);
+        contact = contact_of(nodes_of(a).samples(), i, nodes_of(b).samples(), j);
         return true;
     };
     detail::visit_hits_of(a, b, observer, on_hit);
@@ -162,7 +155,7 @@ bool intersects(const A& a, const B& b) {
 template <Askable A, Askable B>
 std::vector<Interval> contact_intervals(const A& a, const B& b) {
     NoObserver observer;
-    IntervalCollector collector{detail::samples_of(a), detail::samples_of(b), {}};
+    IntervalCollector collector{nodes_of(a).samples(), nodes_of(b).samples(), {}};
     detail::visit_hits_of(a, b, observer, collector);
     return std::move(collector.intervals);
 }

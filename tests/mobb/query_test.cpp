@@ -306,7 +306,7 @@ TEST(Query, BoxesApartByMoreThanTheSlackAreSeparated) {
     const Clip one(1, std::vector<Disk>{{0, 0, kRadius}});
     const Blocks blocks(std::make_shared<const Clip>(one));
     const auto meet = [&](double apart) {
-        return roots_meet(PlacedBlocks(blocks, {}), PlacedBlocks(blocks, {.translate = {apart, 0}}));
+        return RootsApart(PlacedBlocks(blocks, {}), PlacedBlocks(blocks, {.translate = {apart, 0}})).meet;
     };
     EXPECT_TRUE(meet(2 * kRadius));
     EXPECT_FALSE(meet(2 * kRadius + 1e-5));
